@@ -1,0 +1,13 @@
+// The public names of this room.
+export { AsciiReader, AsciiWriter } from './ascii'
+export { BinaryReader, BinaryWriter } from './binary'
+export { sumOf } from './checksum'
+export type { Reader, ValueCodec, Width, Writer } from './cursor'
+export { failAt } from './cursor'
+export { type DataCode, readerOf, writerOf } from './data-code'
+export { type Declaration, declare, type Effect, type Named } from './declaration'
+export { describe, type FieldDescription } from './describe'
+export type { Field, MessageInput, MessageOf, Shape } from './field'
+export * as field from './field'
+export { type Context, decode, encode, type Measured, measure } from './layout'
+export { putUint, uintAt } from './uint'

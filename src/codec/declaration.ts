@@ -1,0 +1,43 @@
+import { checkShapes } from './check'
+import type { Shape } from './field'
+
+/** What a command does to the PLC. Only `read` and `diagnose` may ever be repeated when the outcome is unknown. */
+export type Effect = 'read' | 'write' | 'control' | 'diagnose'
+
+/** A command as plain data: what every protocol family declares of its commands. */
+export interface Declaration {
+  /** The manual's name, English edition. */
+  readonly title: string
+  /** The number that says which command it is, where the frame carries it. */
+  readonly code: number
+  readonly effect: Effect
+  /** Where it is described, e.g. `SLMP reference manual 5.2`. */
+  readonly manual: string
+  readonly request: Shape
+  readonly response: Shape
+  /** Name of the command whose request a response refers to, when it is not this one's (Execute Monitor). */
+  readonly context?: string
+  /** `no`: a success is not answered (Remote Reset). */
+  readonly answered?: 'no'
+}
+
+/** A declaration with the name it has in its family's list. */
+export type Named<D extends Declaration, N extends string> = D & { readonly name: N }
+
+/**
+ * Names a family's declarations by their keys and checks that every field they refer to exists.
+ * @throws TypeError at load when a declaration is wrong.
+ * @example const commands = declare({ readWords: { title: 'Read', code: 0x0401, ... } }); commands.readWords.name
+ */
+export function declare<const T extends Readonly<Record<string, Declaration>>>(
+  declarations: T,
+): { readonly [K in keyof T & string]: Named<T[K], K> } {
+  const named = Object.entries(declarations).map(([name, declaration]) => {
+    const { context } = declaration
+    const asked = context === undefined ? declaration.request : declarations[context]?.request
+    if (asked === undefined) throw new TypeError(`${name}: there is no command ${context}`)
+    checkShapes(declaration.title, declaration.request, declaration.response, asked)
+    return [name, Object.freeze({ ...declaration, name })]
+  })
+  return Object.fromEntries(named)
+}

@@ -1,0 +1,34 @@
+import type { Count, Field, Shape } from './field'
+
+/** One row of a command's documentation: read from the same data the codec runs on. */
+export interface FieldDescription {
+  readonly name: string
+  readonly kind: string
+  /** e.g. `1..960` */
+  readonly range?: string
+  readonly count?: Count
+  readonly value?: number
+  readonly of?: string
+  readonly doc?: string
+  readonly item?: readonly FieldDescription[]
+}
+
+/** Rows for documentation, palette options and the frame decoder. */
+export function describe(shape: Shape): FieldDescription[] {
+  return Object.entries(shape).map(([name, field]) => ({
+    name,
+    kind: field.kind === 'value' ? field.codec.name : field.kind,
+    ...rangeOf(field),
+    ...('count' in field ? { count: field.count } : {}),
+    ...(field.kind === 'fixed' ? { value: field.value } : {}),
+    ...('of' in field ? { of: field.of } : {}),
+    ...('doc' in field && field.doc !== undefined ? { doc: field.doc } : {}),
+    ...(field.kind === 'list' ? { item: describe(field.item) } : {}),
+  }))
+}
+
+function rangeOf(field: Field): { range?: string } {
+  if (!('min' in field) && !('max' in field)) return {}
+  const { min, max } = field as { min?: number; max?: number }
+  return { range: `${min ?? 0}..${max ?? ''}` }
+}

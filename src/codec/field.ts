@@ -1,0 +1,156 @@
+// Fields are plain data. Nothing here runs on bytes; layout.ts gives the kinds their meaning.
+import type { ValueCodec, Width } from './cursor'
+
+/** How many elements: a fixed number, or the name of a number, count, list or bulk field of this message or the request. */
+export type Count = number | string
+
+/** Characters a text field may hold. `hexDigits`: 0-9 and A-F (Self Test). */
+export type Charset = 'any' | 'hexDigits'
+
+interface Documented {
+  readonly doc?: string
+}
+
+interface Bounded {
+  readonly min?: number
+  readonly max?: number
+  /** The value that is written as 0 because the field is too narrow for it (1E: 256 points as 00H). */
+  readonly zeroMeans?: number
+}
+
+export interface IntegerField extends Documented, Bounded {
+  readonly kind: 'u8' | 'u16' | 'u32'
+  /** Makes the field optional in a message that is encoded. */
+  readonly default?: number
+  /** The only numbers that may stand here. */
+  readonly oneOf?: readonly number[]
+}
+/** Written, checked on reading, invisible in the message. */
+export interface FixedField extends Documented {
+  readonly kind: 'fixed'
+  readonly width: Width
+  readonly value: number
+}
+/** Number of elements of the sibling field `of`: derived, invisible in the message. */
+export interface CountField extends Documented, Bounded {
+  readonly kind: 'count'
+  readonly width: Width
+  readonly of: string
+}
+/** Repeats a field of the request; derived, checked on reading, invisible in the message. */
+export interface EchoField extends Documented {
+  readonly kind: 'echo'
+  readonly of: string
+}
+// biome-ignore lint/suspicious/noExplicitAny: a field of any value type; `ValueOf` recovers the type from the codec.
+export interface ValueField<C extends ValueCodec<any> = ValueCodec<any>> extends Documented {
+  readonly kind: 'value'
+  readonly codec: C
+}
+export interface BulkField extends Documented {
+  readonly kind: 'words' | 'doubleWords' | 'bits' | 'bytes'
+  readonly count: Count
+}
+export interface TextField extends Documented {
+  readonly kind: 'text'
+  readonly count: Count
+  readonly charset?: Charset
+}
+export interface ListField extends Documented {
+  readonly kind: 'list'
+  readonly count: Count
+  readonly item: Shape
+}
+/** One item per element of the request's list `of`; the item's counts refer to that element. */
+export interface EachField extends Documented {
+  readonly kind: 'each'
+  readonly of: string
+  readonly item: BulkField
+}
+
+export type Field =
+  | IntegerField
+  | FixedField
+  | CountField
+  | EchoField
+  | ValueField
+  | BulkField
+  | TextField
+  | ListField
+  | EachField
+
+export interface Shape {
+  readonly [name: string]: Field
+}
+
+type Invisible = 'fixed' | 'count' | 'echo'
+type VisibleKey<S extends Shape> = { [K in keyof S]: S[K]['kind'] extends Invisible ? never : K }[keyof S]
+type OptionalKey<S extends Shape> = {
+  [K in VisibleKey<S>]: S[K] extends { readonly default: number } ? K : never
+}[VisibleKey<S>]
+
+type ValueOf<F extends Field> = F extends { kind: 'u8' | 'u16' | 'u32' }
+  ? number
+  : F extends { kind: 'value'; codec: ValueCodec<infer T> }
+    ? T
+    : F extends { kind: 'words' | 'doubleWords' }
+      ? readonly number[]
+      : F extends { kind: 'bits' }
+        ? readonly boolean[]
+        : F extends { kind: 'bytes' }
+          ? Uint8Array
+          : F extends { kind: 'text' }
+            ? string
+            : F extends { kind: 'list'; item: infer I extends Shape }
+              ? readonly MessageOf<I>[]
+              : F extends { kind: 'each'; item: infer I extends Field }
+                ? readonly ValueOf<I>[]
+                : never
+
+type Flat<T> = { [K in keyof T]: T[K] }
+
+/** The message of a shape as it is decoded: every visible field. */
+export type MessageOf<S extends Shape> = Flat<{ readonly [K in VisibleKey<S>]: ValueOf<S[K]> }>
+
+/** The message of a shape as it is given for encoding: fields with a default may be left out. */
+export type MessageInput<S extends Shape> = Flat<
+  { readonly [K in Exclude<VisibleKey<S>, OptionalKey<S>>]: ValueOf<S[K]> } & {
+    readonly [K in OptionalKey<S>]?: ValueOf<S[K]>
+  }
+>
+
+type IntegerOptions = {
+  doc?: string
+  min?: number
+  max?: number
+  zeroMeans?: number
+  default?: number
+  oneOf?: readonly number[]
+}
+export const u8 = <const O extends IntegerOptions = Record<never, never>>(options?: O) =>
+  ({ kind: 'u8', ...(options as O) }) as const
+export const u16 = <const O extends IntegerOptions = Record<never, never>>(options?: O) =>
+  ({ kind: 'u16', ...(options as O) }) as const
+export const u32 = <const O extends IntegerOptions = Record<never, never>>(options?: O) =>
+  ({ kind: 'u32', ...(options as O) }) as const
+export const fixed = (value: number, width: Width, doc?: string) =>
+  ({ kind: 'fixed', value, width, ...(doc ? { doc } : {}) }) as const
+export const countOf = <const N extends string>(of: N, width: Width = 2, options: Bounded & Documented = {}) =>
+  ({ kind: 'count', of, width, ...options }) as const
+export const echo = <const N extends string>(of: N) => ({ kind: 'echo', of }) as const
+export const value = <T>(codec: ValueCodec<T>, doc?: string) =>
+  ({ kind: 'value', codec, ...(doc ? { doc } : {}) }) as const
+export const words = <const C extends Count>(count: C, doc?: string) =>
+  ({ kind: 'words', count, ...(doc ? { doc } : {}) }) as const
+export const doubleWords = <const C extends Count>(count: C, doc?: string) =>
+  ({ kind: 'doubleWords', count, ...(doc ? { doc } : {}) }) as const
+export const bits = <const C extends Count>(count: C, doc?: string) =>
+  ({ kind: 'bits', count, ...(doc ? { doc } : {}) }) as const
+export const bytes = <const C extends Count>(count: C, doc?: string) =>
+  ({ kind: 'bytes', count, ...(doc ? { doc } : {}) }) as const
+export const text = <const C extends Count>(count: C, options: { doc?: string; charset?: Charset } = {}) =>
+  ({ kind: 'text', count, ...options }) as const
+export const list = <const C extends Count, const S extends Shape>(count: C, item: S, doc?: string) =>
+  ({ kind: 'list', count, item, ...(doc ? { doc } : {}) }) as const
+export const each = <const N extends string, const F extends BulkField>(of: N, item: F) =>
+  ({ kind: 'each', of, item }) as const

@@ -1,0 +1,25 @@
+import { EndCodeError } from '../errors'
+import { HeadProtocol } from '../link/link'
+import { jwCommands } from './commands'
+import { type JwFrameOptions, type JwHead, jwFrame } from './frame'
+
+/**
+ * The JW-255CM commands over Ethernet; binary only.
+ * @example jwProtocol().exchange(jwCommands.readDataMemory, { head: { segment: 0, address: 0o4000 }, length: 4 })
+ */
+export function jwProtocol(options: JwFrameOptions = {}): HeadProtocol<JwHead> {
+  return new HeadProtocol<JwHead>({
+    framing: jwFrame(options),
+    commands: jwCommands,
+    code: 'binary',
+    form: 0,
+    headOf: (command) => ({ command: command.code }),
+    codeOf: (head) => head.command,
+    refusal: (command, frame) => {
+      const code = frame.endCode.toString(16).toUpperCase().padStart(2, '0')
+      return new EndCodeError(frame.endCode, `${command.title} was refused with result code ${code}H.`, {
+        command: command.title,
+      })
+    },
+  })
+}

@@ -1,0 +1,92 @@
+// What a frame is to the session and the responder: no protocol, no I/O.
+import type { PlcError } from '../errors'
+
+/** A frame that carries a request, as the responder sees it. */
+export interface RequestFrame<Head> {
+  readonly head: Head
+  /** Serial number, where the frame has one. */
+  readonly serial: number | undefined
+  readonly body: Buffer
+}
+
+/** A frame that carries an answer, as the session sees it. */
+export interface ResponseFrame<Head> {
+  readonly head: Head
+  readonly serial: number | undefined
+  /** 0 is success. */
+  readonly endCode: number
+  /** Response data, or with an end code other than 0 what the frame says about the error. */
+  readonly body: Buffer
+}
+
+/** One frame found at the start of the bytes. */
+export interface Scanned<Frame> {
+  /** Bytes to take away from the front. */
+  readonly used: number
+  readonly frame: Frame
+}
+
+/**
+ * The length of the body, for frames that carry none (1E, Sharp JW): asked with the head and the body's bytes so far.
+ * `undefined` means: more bytes are needed to tell.
+ */
+export type BodyLength<Head> = (head: Head, soFar: Buffer) => number | undefined
+
+/**
+ * The layout of a frame around its body: four pure functions.
+ * The scans have three answers: a frame; `undefined` when more bytes are needed; a thrown `ProtocolError` when the
+ * bytes are no such frame. They never change the bytes and never keep them.
+ */
+export interface Framing<Head> {
+  readonly name: string
+  /** How an answer finds its request: by a serial number in the frame, or only by the order of arrival. */
+  readonly correlation: 'serial' | 'order'
+  readonly request: {
+    write(head: Head, serial: number, body: Uint8Array): Buffer
+    scan(bytes: Buffer, bodyLength: BodyLength<Head>): Scanned<RequestFrame<Head>> | undefined
+  }
+  readonly response: {
+    write(head: Head, serial: number, endCode: number, body: Uint8Array): Buffer
+    scan(bytes: Buffer, bodyLength: BodyLength<Head>): Scanned<ResponseFrame<Head>> | undefined
+    /**
+     * Whether a frame in the place of an answer is one the PLC sends unasked (On-demand). Such frames have the form
+     * of a request, so `request.scan` reads them.
+     */
+    isUnsolicited?(bytes: Buffer): boolean
+  }
+  /** What of the head the answer must repeat and does not, in words; `undefined` when it is the answer's head. */
+  mismatch(asked: Head, answered: Head): string | undefined
+}
+
+/** A request on its way: what the session needs to know about it. */
+export interface Job<Head> {
+  readonly head: Head
+  readonly body: Uint8Array
+  /** Absolute time, on the clock the session is given, after which nobody waits any more. */
+  readonly deadline: number
+  /** Length of the answer's body, asked only by frames that carry none. */
+  readonly responseLength: BodyLength<Head>
+}
+
+/** How a job ended. */
+export type Outcome<Head> =
+  | { readonly kind: 'answered'; readonly frame: ResponseFrame<Head> }
+  | { readonly kind: 'timedOut'; readonly sent: boolean }
+  | { readonly kind: 'disconnected'; readonly sent: boolean }
+  | { readonly kind: 'failed'; readonly error: PlcError }
+
+/** What a session tells its owner. */
+export type SessionEvent<Head> =
+  | {
+      readonly kind: 'done'
+      readonly job: Job<Head>
+      readonly outcome: Outcome<Head>
+      readonly sentAt: number | undefined
+    }
+  | { readonly kind: 'unsolicited'; readonly frame: RequestFrame<Head> }
+  /** An answer to a request that was given up: thrown away. */
+  | { readonly kind: 'stale'; readonly serial: number | undefined }
+  /** The connection must be dropped: what arrives on it can no longer be attributed. */
+  | { readonly kind: 'drop'; readonly error: PlcError }
+  /** Datagrams without a serial number: the next request must leave from a new local port. */
+  | { readonly kind: 'renew' }

@@ -1,0 +1,7 @@
+// The public names of this room.
+
+export type { Exchange } from './exchange'
+export type { BodyLength, Framing, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
+export { HeadProtocol, type HeadProtocolParts, type NamedCommand } from './head-protocol'
+export { Responder } from './responder'
+export { Session, type SessionOptions } from './session'

@@ -1,0 +1,277 @@
+// The client's side of one connection, sans-IO: bytes and the time go in; bytes, outcomes and the next deadline come
+// out. No sockets, no timers, no promises.
+//
+// Without a serial number a late answer would be taken for the next one. So `order` means one request in flight, and
+// after a timeout or an abandoned request the connection is dropped (stream) or the local port is changed (datagram).
+// With datagrams the network may also duplicate, so there the port is changed after every answer.
+import { PlcError, ProtocolError, RequestError } from '../errors'
+import type { Framing, Job, Outcome, ResponseFrame, SessionEvent } from './framing'
+
+/** How the session reads its bytes, and how much may be under way. */
+export interface SessionOptions {
+  /** `datagram`: one chunk is one frame, consumed exactly. */
+  readonly kind: 'stream' | 'datagram'
+  /** Requests in flight at once. More than 1 needs a frame with a serial number. */
+  readonly window: number
+  /** Bytes of an unfinished frame that are kept; more is a broken peer. */
+  readonly maxFrame?: number
+}
+
+interface Pending<Head> {
+  readonly job: Job<Head>
+  readonly serial: number
+  readonly sentAt: number
+}
+
+const EMPTY = Buffer.alloc(0)
+const SERIALS = 0x10000
+/** Serial numbers of given-up requests that are not used again soon: their answers may still be on the way. */
+const QUARANTINE = 256
+const MAX_FRAME = 65_536
+
+export class Session<Head> {
+  readonly #framing: Framing<Head>
+  readonly #options: SessionOptions
+  #pending: Pending<Head>[] = []
+  #waiting: Job<Head>[] = []
+  #output: Buffer[] = []
+  #events: SessionEvent<Head>[] = []
+  #received: Buffer = EMPTY
+  #nextSerial = 0
+  #quarantine: number[] = []
+  /** Set once the connection must go: nothing more is sent or attributed on it. */
+  #dropped = false
+
+  constructor(framing: Framing<Head>, options: SessionOptions) {
+    if (framing.correlation === 'order' && options.window !== 1) {
+      throw new RequestError(
+        'BAD_OPTION',
+        `The ${framing.name} frame has no serial number, so only one request may be in flight; asked for ${options.window}.`,
+        'inFlight',
+      )
+    }
+    this.#framing = framing
+    this.#options = options
+  }
+
+  /** Requests sent and not answered. */
+  get inFlight(): number {
+    return this.#pending.length
+  }
+
+  /** Requests accepted and not sent. */
+  get queued(): number {
+    return this.#waiting.length
+  }
+
+  submit(job: Job<Head>, now: number): void {
+    this.#waiting.push(job)
+    this.#fill(now)
+  }
+
+  /**
+   * Gives a job up. A request that is in flight may still be carried out and answered, so it ends as a timeout does.
+   * @returns whether it had been sent; `undefined` when the session does not know the job.
+   */
+  abandon(job: Job<Head>, now: number): boolean | undefined {
+    const waiting = this.#waiting.indexOf(job)
+    if (waiting >= 0) {
+      this.#waiting.splice(waiting, 1)
+      return false
+    }
+    const pending = this.#pending.find((entry) => entry.job === job)
+    if (pending === undefined) return undefined
+    this.#giveUp([pending], 'a request in flight was abandoned')
+    this.#fill(now)
+    return true
+  }
+
+  receive(chunk: Buffer, now: number): void {
+    if (this.#dropped) return
+    if (this.#options.kind === 'datagram') this.#receiveDatagram(chunk)
+    else this.#receiveStream(chunk)
+    this.#fill(now)
+  }
+
+  /** Ends what is overdue. Call it when `nextTimeout()` is reached. */
+  timeout(now: number): void {
+    for (const job of this.#waiting.filter((entry) => entry.deadline <= now)) {
+      this.#waiting.splice(this.#waiting.indexOf(job), 1)
+      this.#finish(job, { kind: 'timedOut', sent: false }, undefined)
+    }
+    const late = this.#pending.filter((entry) => entry.job.deadline <= now)
+    if (late.length === 0) return
+    for (const { job, sentAt } of late) this.#finish(job, { kind: 'timedOut', sent: true }, sentAt)
+    this.#giveUp(late, 'no answer before the deadline')
+    this.#fill(now)
+  }
+
+  /** The connection is gone: everything that was in flight has an unknown outcome, the rest was not sent. */
+  disconnected(): void {
+    const pending = this.#pending
+    const waiting = this.#waiting
+    this.#pending = []
+    this.#waiting = []
+    this.#output = []
+    this.#received = EMPTY
+    this.#dropped = true
+    for (const { job, sentAt } of pending) this.#finish(job, { kind: 'disconnected', sent: true }, sentAt)
+    for (const job of waiting) this.#finish(job, { kind: 'disconnected', sent: false }, undefined)
+  }
+
+  /** Earliest deadline, or `undefined` when nothing waits. */
+  nextTimeout(): number | undefined {
+    let earliest: number | undefined
+    for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
+    for (const job of this.#waiting) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
+    return earliest
+  }
+
+  /** The next bytes to send, or `undefined`. On datagram links one buffer is one datagram. */
+  transmit(): Buffer | undefined {
+    return this.#output.shift()
+  }
+
+  /** The next event, or `undefined`. */
+  poll(): SessionEvent<Head> | undefined {
+    return this.#events.shift()
+  }
+
+  #fill(now: number): void {
+    while (!this.#dropped && this.#pending.length < this.#options.window) {
+      const job = this.#waiting.shift()
+      if (job === undefined) return
+      if (job.deadline <= now) {
+        this.#finish(job, { kind: 'timedOut', sent: false }, undefined)
+        continue
+      }
+      const serial = this.#takeSerial()
+      this.#output.push(this.#framing.request.write(job.head, serial, job.body))
+      this.#pending.push({ job, serial, sentAt: now })
+    }
+  }
+
+  #takeSerial(): number {
+    do this.#nextSerial = (this.#nextSerial + 1) % SERIALS
+    while (this.#quarantine.includes(this.#nextSerial))
+    return this.#nextSerial
+  }
+
+  #receiveStream(chunk: Buffer): void {
+    this.#received = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
+    try {
+      while (this.#received.length > 0 && !this.#dropped) {
+        const used = this.#takeFrame(this.#received)
+        if (used === undefined) break
+        this.#received = used === this.#received.length ? EMPTY : this.#received.subarray(used)
+      }
+      this.#refuseEndlessFrame()
+    } catch (error) {
+      this.#fail(error)
+    }
+  }
+
+  #refuseEndlessFrame(): void {
+    const limit = this.#options.maxFrame ?? MAX_FRAME
+    if (this.#received.length <= limit) return
+    throw new ProtocolError('BAD_FRAME', `A frame of more than ${limit} bytes does not end.`)
+  }
+
+  #receiveDatagram(datagram: Buffer): void {
+    try {
+      const used = this.#takeFrame(datagram)
+      if (used === datagram.length || this.#dropped) return
+      if (used === undefined)
+        throw new ProtocolError('TRUNCATED', 'A datagram ended before its frame did.', datagram.length, datagram)
+      throw new ProtocolError(
+        'TRAILING',
+        `A datagram holds ${datagram.length - used} byte(s) behind its frame.`,
+        used,
+        datagram,
+      )
+    } catch (error) {
+      this.#fail(error)
+    }
+  }
+
+  /** @returns how many bytes the frame at the front took, or `undefined` when it is not complete. */
+  #takeFrame(bytes: Buffer): number | undefined {
+    if (this.#framing.response.isUnsolicited?.(bytes) === true) {
+      const unsolicited = this.#framing.request.scan(bytes, () => undefined)
+      if (unsolicited !== undefined) this.#events.push({ kind: 'unsolicited', frame: unsolicited.frame })
+      return unsolicited?.used
+    }
+    // With nothing asked, an answer without a serial number belongs to nobody; 1E could not even tell where it ends.
+    if (this.#pending.length === 0 && this.#framing.correlation === 'order') return this.#unasked(bytes)
+    const scanned = this.#framing.response.scan(bytes, (head, soFar) =>
+      this.#pending[0]?.job.responseLength(head, soFar),
+    )
+    if (scanned === undefined) return undefined
+    this.#attribute(scanned.frame)
+    return scanned.used
+  }
+
+  #attribute(frame: ResponseFrame<Head>): void {
+    const at =
+      this.#framing.correlation === 'serial'
+        ? this.#pending.findIndex((entry) => entry.serial === frame.serial)
+        : this.#pending.length - 1
+    const found = this.#pending[at]
+    if (found === undefined) {
+      // The late answer to a request that was given up: its number may be used again from now on.
+      this.#quarantine = this.#quarantine.filter((serial) => serial !== frame.serial)
+      this.#events.push({ kind: 'stale', serial: frame.serial })
+      return
+    }
+    const mismatch = this.#framing.mismatch(found.job.head, frame.head)
+    if (mismatch !== undefined)
+      throw new ProtocolError('ECHO_MISMATCH', `The answer is not the request's: ${mismatch}.`)
+    this.#pending.splice(at, 1)
+    this.#finish(found.job, { kind: 'answered', frame }, found.sentAt)
+    if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order') this.#events.push({ kind: 'renew' })
+  }
+
+  #unasked(bytes: Buffer): number {
+    if (this.#options.kind === 'stream') {
+      throw new ProtocolError('UNEXPECTED_ANSWER', 'An answer arrived that nobody asked for.', 0, bytes)
+    }
+    this.#events.push({ kind: 'stale', serial: undefined })
+    return bytes.length
+  }
+
+  #giveUp(entries: readonly Pending<Head>[], why: string): void {
+    this.#pending = this.#pending.filter((entry) => !entries.includes(entry))
+    if (this.#framing.correlation === 'serial') {
+      this.#quarantine.push(...entries.map((entry) => entry.serial))
+      this.#quarantine.splice(0, this.#quarantine.length - QUARANTINE)
+      return
+    }
+    if (this.#options.kind === 'datagram') this.#events.push({ kind: 'renew' })
+    else
+      this.#drop(
+        new ProtocolError(
+          'UNEXPECTED_ANSWER',
+          `The connection is dropped: ${why}, and a late answer could not be told from the next one.`,
+        ),
+      )
+  }
+
+  #fail(error: unknown): void {
+    if (!(error instanceof PlcError)) throw error
+    const pending = this.#pending
+    this.#pending = []
+    for (const { job, sentAt } of pending) this.#finish(job, { kind: 'failed', error }, sentAt)
+    this.#drop(error)
+  }
+
+  #drop(error: PlcError): void {
+    this.#dropped = true
+    this.#received = EMPTY
+    this.#output = []
+    this.#events.push({ kind: 'drop', error })
+  }
+
+  #finish(job: Job<Head>, outcome: Outcome<Head>, sentAt: number | undefined): void {
+    this.#events.push({ kind: 'done', job, outcome, sentAt })
+  }
+}

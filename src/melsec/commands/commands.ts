@@ -1,0 +1,8 @@
+import { controlCommands } from './control'
+import { deviceCommands } from './device'
+
+/** Every declared command of the SLMP set, by name: documentation, palette options and the simulator read this list. */
+export const commands = { ...deviceCommands, ...controlCommands } as const
+
+export type Commands = typeof commands
+export type CommandName = keyof Commands

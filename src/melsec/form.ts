@@ -1,0 +1,108 @@
+// Which form of the device specification a request takes: the subcommand is computed, never listed.
+import type { DataCode } from '../codec/codec'
+import { RequestError } from '../errors'
+import type { Command } from './command'
+import type { CommandName } from './commands/commands'
+import { deviceInfo } from './device'
+import { accessProblem } from './device-access'
+import { FORM_EXTENDED, FORM_LONG, formNeededBy, formProblem } from './device-codec'
+import type { FoundDevice } from './device-uses'
+import { type DeviceForm, exclusionOf, lackOf, type Profile } from './profile'
+
+/** Subcommand bits of each form. */
+export const FORM_BITS: Readonly<Record<DeviceForm, number>> = {
+  short: 0,
+  long: FORM_LONG,
+  extendedShort: FORM_EXTENDED,
+  extendedLong: FORM_EXTENDED | FORM_LONG,
+}
+const FORM_MASK = FORM_EXTENDED | FORM_LONG
+const BIT_UNIT = 0x01
+
+const FORM_OF_BITS: ReadonlyMap<number, DeviceForm> = new Map(
+  Object.entries(FORM_BITS).map(([form, bits]) => [bits, form as DeviceForm]),
+)
+
+/** Subcommand of a command in a form: bit 0 unit, bit 1 long form, bit 7 extension (SLMP reference manual 5.1). */
+export function subcommandOf(command: Command, form: DeviceForm, profile: Profile): number {
+  const override = profile.subcommands[command.name as CommandName]
+  if (override !== undefined) return override.value
+  if (command.unit === 'none') return 0
+  return FORM_BITS[form] | (command.unit === 'bit' ? BIT_UNIT : 0)
+}
+
+/** The unit and form a received subcommand says; `undefined` when no command has such a subcommand. */
+export function readSubcommand(subcommand: number): { unit: 'bit' | 'word'; form: DeviceForm } | undefined {
+  const form = FORM_OF_BITS.get(subcommand & FORM_MASK)
+  if (form === undefined || (subcommand & ~(FORM_MASK | BIT_UNIT)) !== 0) return undefined
+  return { unit: (subcommand & BIT_UNIT) === 0 ? 'word' : 'bit', form }
+}
+
+/**
+ * The form this request is sent in: the profile's own, or the first of its forms that can say every address.
+ * @throws RequestError when the profile, the command or the form cannot do what is asked.
+ */
+export function chooseForm(
+  profile: Profile,
+  command: Command,
+  found: readonly FoundDevice[],
+  code: DataCode,
+  extraBits: number,
+): DeviceForm {
+  checkCommand(profile, command)
+  for (const device of found) checkDevice(profile, command, device)
+  const form = found.length === 0 ? profile.form : formFor(profile, found)
+  for (const { address, path } of found) {
+    const problem = formProblem(address, code === 'ascii', FORM_BITS[form] | extraBits)
+    if (problem !== undefined) throw new RequestError(problem.code, problem.message, path)
+  }
+  return form
+}
+
+function formFor(profile: Profile, found: readonly FoundDevice[]): DeviceForm {
+  let need = 0
+  for (const { address } of found) need |= needOf(profile, address)
+  const ordered: readonly DeviceForm[] = [profile.form, ...profile.forms]
+  const form =
+    ordered.find(
+      (candidate) =>
+        (FORM_BITS[candidate] & need) === need && (need & FORM_EXTENDED) === (FORM_BITS[candidate] & FORM_EXTENDED),
+    ) ?? ordered.find((candidate) => (FORM_BITS[candidate] & need) === need)
+  if (form === undefined)
+    throw new RequestError(
+      'UNSUPPORTED',
+      `${profile.title} has no form that can address ${found.map(({ address }) => `${address.device}${address.number}`).join(', ')}.`,
+    )
+  return form
+}
+
+function needOf(profile: Profile, address: FoundDevice['address']): number {
+  const longOnly = deviceInfo(address.device).longOnly === true && !profile.shortDevices.includes(address.device)
+  return formNeededBy(address) | (longOnly ? FORM_LONG : 0)
+}
+
+function checkCommand(profile: Profile, command: Command): void {
+  const lack = lackOf(profile, command.name as CommandName)
+  if (lack === undefined) return
+  throw new RequestError(
+    'UNSUPPORTED',
+    `${profile.title} does not have ${command.title}: ${lack.reason} ${lack.instead}`,
+    command.name,
+  )
+}
+
+function checkDevice(profile: Profile, command: Command, { address, use, path }: FoundDevice): void {
+  const problem = accessProblem(address, use)
+  if (problem !== undefined) throw new RequestError(problem.code, problem.message, path)
+  if (profile.absentDevices.includes(address.device)) {
+    throw new RequestError('UNSUPPORTED', `${profile.title} has no device ${address.device}.`, path)
+  }
+  const exclusion = exclusionOf(profile, command.name as CommandName, address.device)
+  if (exclusion !== undefined) {
+    throw new RequestError(
+      'UNSUPPORTED',
+      `${command.title} does not take ${address.device} on ${profile.title}: ${exclusion.reason} ${exclusion.instead}`,
+      path,
+    )
+  }
+}

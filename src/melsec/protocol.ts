@@ -1,0 +1,229 @@
+// The SLMP command set in a frame: encodes requests and reads answers, and the same from the PLC's side.
+// The frames differ only in their head, so one class serves 3E, 4E and 4C.
+import { type Context, type DataCode, decode, encode, measure, readerOf, writerOf } from '../codec/codec'
+import { EndCodeError, ProtocolError, RequestError } from '../errors'
+import type { Exchange, Framing, RequestFrame, ResponseFrame } from '../link/link'
+import type { Command, RequestOf, ResponseOf } from './command'
+import { type CommandName, commands } from './commands/commands'
+import { FORM_XY_OCTAL } from './device-codec'
+import { devicesOf } from './device-uses'
+import { explainEndCode } from './end-code'
+import { type ErrorInformation, errorInformation } from './error-information'
+import { chooseForm, FORM_BITS, readSubcommand, subcommandOf } from './form'
+import { checkLimits } from './limit'
+import type { DeviceForm, Profile } from './profile'
+
+type Bag = Readonly<Record<string, unknown>>
+
+export interface MelsecProtocolOptions<Head> {
+  readonly framing: Framing<Head>
+  /** Head of every request: route and monitoring timer. */
+  readonly head: Head
+  readonly profile: Profile
+  readonly code: DataCode
+  /**
+   * Digits of X and Y in ASCII code, a setting of the PLC's port ("ASCII (X,Y OCT)" or "(X,Y HEX)"). Only families
+   * that number X and Y in octal have it; without it their X and Y are refused in ASCII code, because the wrong
+   * choice would address other inputs and outputs without any error.
+   */
+  readonly asciiXy?: 'octal' | 'hexadecimal'
+}
+
+/** What a call may say beside the message. */
+export interface ExchangeOptions {
+  /** Use this form of the device specification instead of the computed one. */
+  readonly form?: DeviceForm
+  /** The request a response refers to, when it is another's: the registration, for Execute Monitor. */
+  readonly context?: Bag
+}
+
+/** A request as the PLC's side reads it. */
+export interface ReceivedRequest {
+  readonly command: Command
+  readonly name: CommandName
+  readonly form: DeviceForm
+  readonly subcommand: number
+  readonly message: Bag
+}
+
+/** A request that names a command or subcommand nobody declared. */
+export interface UnknownRequest {
+  readonly unknown: { readonly command: number; readonly subcommand: number }
+}
+
+export class MelsecProtocol<Head> {
+  readonly framing: Framing<Head>
+  readonly profile: Profile
+  readonly code: DataCode
+  readonly #head: Head
+  readonly #xyBits: number
+  readonly #xyUnknown: boolean
+
+  constructor(options: MelsecProtocolOptions<Head>) {
+    this.framing = options.framing
+    this.profile = options.profile
+    this.code = options.code
+    this.#head = options.head
+    this.#xyBits = options.asciiXy === 'octal' ? FORM_XY_OCTAL : 0
+    this.#xyUnknown = options.code === 'ascii' && options.profile.xyRadix === 8 && options.asciiXy === undefined
+  }
+
+  /**
+   * A request ready to be sent. Everything that cannot be sent is refused here.
+   * @throws RequestError with what is wrong, where, and what to do.
+   */
+  exchange<C extends Command>(
+    command: C,
+    message: RequestOf<C>,
+    options: ExchangeOptions = {},
+  ): Exchange<Head, ResponseOf<C>> {
+    const bag: Bag = message
+    const form = this.#formOf(command, bag, options)
+    checkLimits(this.profile, command.name as CommandName, form, this.code, bag)
+    const context = this.#contextOf(command, bag, options)
+    const bits = FORM_BITS[form] | this.#xyBits
+    const subcommand = subcommandOf(command, form, this.profile)
+    const writer = writerOf(this.code, bits)
+    writer.uint(command.code, 2)
+    writer.uint(subcommand, 2)
+    encode(command.request, bag, writer)
+    return {
+      title: command.title,
+      effect: command.effect,
+      head: this.#head,
+      body: writer.take(),
+      answered: command.answered !== 'no',
+      responseLength: () => measure(command.response, { ascii: this.code === 'ascii', form: bits, context }),
+      decode: (frame) => this.#decode(command, subcommand, bits, context, frame),
+    }
+  }
+
+  #formOf(command: Command, message: Bag, options: ExchangeOptions): DeviceForm {
+    const found = devicesOf(command, message)
+    if (this.#xyUnknown) this.#refuseUnknownXy(found.map(({ address }) => address.device))
+    const form = chooseForm(this.profile, command, found, this.code, this.#xyBits)
+    return options.form ?? form
+  }
+
+  #refuseUnknownXy(devices: readonly string[]): void {
+    const device = devices.find((name) => name === 'X' || name === 'Y')
+    if (device === undefined) return
+    throw new RequestError(
+      'BAD_OPTION',
+      `${device} in ASCII code: ${this.profile.title} sends X and Y as octal or as hexadecimal digits, depending on its ` +
+        'communication data code "ASCII (X,Y OCT)" or "ASCII (X,Y HEX)". Set the option asciiXy to octal or hexadecimal as in the PLC.',
+      'asciiXy',
+    )
+  }
+
+  #contextOf(command: Command, message: Bag, options: ExchangeOptions): Context {
+    if (command.context === undefined) return { shape: command.request, message }
+    if (options.context === undefined) {
+      throw new RequestError(
+        'BAD_MESSAGE',
+        `${command.title} needs the message of ${command.context} it refers to (option context).`,
+        'context',
+      )
+    }
+    return { shape: commands[command.context as CommandName].request, message: options.context }
+  }
+
+  #decode<C extends Command>(
+    command: C,
+    subcommand: number,
+    form: number,
+    context: Context,
+    frame: ResponseFrame<Head>,
+  ): ResponseOf<C> {
+    if (frame.endCode !== 0) throw this.#refusal(command, subcommand, frame)
+    const reader = readerOf(this.code, frame.body, form)
+    const message = decode<C['response']>(command.response, reader, context)
+    reader.end()
+    return message
+  }
+
+  #refusal(command: Command, subcommand: number, frame: ResponseFrame<Head>): EndCodeError {
+    const information = this.#errorInformation(frame.body)
+    if (information !== undefined && (information.command !== command.code || information.subcommand !== subcommand)) {
+      throw new ProtocolError(
+        'ECHO_MISMATCH',
+        `The answer with end code ${hex4(frame.endCode)} is about command ${hex4(information.command)}, not ${hex4(command.code)}.`,
+      )
+    }
+    const text = explainEndCode(frame.endCode)
+    const station = information === undefined ? undefined : describeStation(information)
+    const meaning = text === undefined ? 'No text is known for this code.' : `${text.meaning} ${text.remedy}`
+    return new EndCodeError(
+      frame.endCode,
+      `${command.title} was refused with end code ${hex4(frame.endCode)}: ${meaning}${station === undefined ? '' : ` (Reported by ${station}.)`}`,
+      {
+        command: command.title,
+        ...(station === undefined ? {} : { station }),
+        ...(text === undefined ? {} : { meaning: text.meaning, remedy: text.remedy }),
+      },
+    )
+  }
+
+  /** The error information, when the answer holds all of it: 4C has none, and devices exist that shorten it. */
+  #errorInformation(body: Buffer): ErrorInformation | undefined {
+    if (body.length < measure(errorInformation, { ascii: this.code === 'ascii', form: 0 })) return undefined
+    return decode(errorInformation, readerOf(this.code, body))
+  }
+
+  /**
+   * The PLC's side: which command with which message a body is.
+   * @throws ProtocolError when the message does not fit the command (a CPU answers an end code to it).
+   */
+  readRequest(frame: RequestFrame<Head>): ReceivedRequest | UnknownRequest {
+    const head = readerOf(this.code, frame.body)
+    const code = head.uint(2)
+    const subcommand = head.uint(2)
+    const known = this.#commandOf(code, subcommand)
+    if (known === undefined) return { unknown: { command: code, subcommand } }
+    const reader = readerOf(this.code, frame.body.subarray(head.position), FORM_BITS[known.form] | this.#xyBits)
+    const message = decode(known.command.request, reader)
+    reader.end()
+    return { ...known, subcommand, message }
+  }
+
+  #commandOf(code: number, subcommand: number): { command: Command; name: CommandName; form: DeviceForm } | undefined {
+    const device = readSubcommand(subcommand)
+    for (const [name, command] of Object.entries<Command>(commands)) {
+      if (command.code !== code) continue
+      const commandName = name as CommandName
+      if (command.unit === 'none') {
+        if (subcommand === subcommandOf(command, 'short', this.profile))
+          return { command, name: commandName, form: 'short' }
+      } else if (device?.unit === command.unit) return { command, name: commandName, form: device.form }
+    }
+    return undefined
+  }
+
+  /** The PLC's side: the data of the answer. `context` is the request, or for Execute Monitor the registration. */
+  writeResponse<C extends Command>(
+    request: ReceivedRequest & { command: C },
+    response: Bag,
+    context: Bag = request.message,
+  ): Buffer {
+    const { command, form } = request
+    const writer = writerOf(this.code, FORM_BITS[form] | this.#xyBits)
+    const shape = command.context === undefined ? command.request : commands[command.context as CommandName].request
+    encode(command.response, response, writer, { shape, message: context })
+    return writer.take()
+  }
+
+  /** The PLC's side: what stands behind an end code other than 0. */
+  writeErrorInformation(information: ErrorInformation): Buffer {
+    const writer = writerOf(this.code)
+    encode(errorInformation, information, writer)
+    return writer.take()
+  }
+}
+
+function describeStation({ network, station, moduleIo, multidrop }: ErrorInformation): string {
+  return `network ${network}, station ${station}, module I/O ${hex4(moduleIo)}, multidrop ${multidrop}`
+}
+
+function hex4(value: number): string {
+  return value.toString(16).toUpperCase().padStart(4, '0')
+}
