@@ -18,16 +18,21 @@ export interface OpenedPage {
   close(): Promise<void>
 }
 
+export interface PageOptions {
+  /** What the page's navigator tells; the editor picks its language by it. Default en-US. */
+  readonly locale?: string
+  /** Default 1280 x 800. */
+  readonly viewport?: { readonly width: number; readonly height: number }
+}
+
 export interface HeadlessBrowser {
   /**
    * Opens a page in a context of its own and waits until it is loaded.
-   * @param options `locale` is what the page's navigator tells (the editor picks its language by it)
    * @example const { page } = await browser.openPage(red.url, { locale: 'ja' })
    */
-  openPage(
-    url: string,
-    options?: { locale?: string; viewport?: { width: number; height: number } },
-  ): Promise<OpenedPage>
+  openPage(url: string, options?: PageOptions): Promise<OpenedPage>
+  /** Opens the editor of a Node-RED and waits until its palette and flows are there (about five seconds). */
+  openEditor(url: string, options?: PageOptions): Promise<OpenedPage>
   close(): Promise<void>
 }
 
@@ -36,15 +41,17 @@ export async function launchBrowser(): Promise<HeadlessBrowser> {
   const browser = await chromium.launch(await launchOptions())
   return {
     openPage: (url, options = {}) => openPage(browser, url, options),
+    openEditor: async (url, options = {}) => {
+      const opened = await openPage(browser, url, options)
+      await opened.page.waitForSelector('.red-ui-palette-node')
+      await opened.page.waitForSelector('#red-ui-loading-progress', { state: 'hidden' })
+      return opened
+    },
     close: () => browser.close(),
   }
 }
 
-async function openPage(
-  browser: Browser,
-  url: string,
-  options: { locale?: string; viewport?: { width: number; height: number } },
-): Promise<OpenedPage> {
+async function openPage(browser: Browser, url: string, options: PageOptions): Promise<OpenedPage> {
   const context = await browser.newContext({
     locale: options.locale ?? 'en-US',
     viewport: options.viewport ?? { width: 1280, height: 800 },
@@ -74,7 +81,7 @@ const ARGUMENTS = [
 ]
 
 async function launchOptions(): Promise<LaunchOptions> {
-  const named = process.env['MELSEC_JW_BROWSER']
+  const named = process.env.MELSEC_JW_BROWSER
   if (named) return { executablePath: named, args: ARGUMENTS }
   if (process.platform !== 'linux' || process.arch !== 'x64') return { channel: 'chrome', args: ARGUMENTS }
   const folder = await unpackedChromium()
