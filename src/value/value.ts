@@ -1,0 +1,17 @@
+/** Typed values over words of 16 bits: the public names of this room. */
+export { decodeArray, decodeValue, encodeArray, encodeValue } from './convert'
+export { checkFormat, type Encoding, formatOptions, type ValueFormat } from './format'
+export {
+  formatType,
+  maxTextLength,
+  type PlcValue,
+  parseType,
+  type TypeName,
+  type TypeToValue,
+  typeNames,
+  type ValueOf,
+  type ValueType,
+  valueTypes,
+  wordsOf,
+} from './type'
+export { bitOf, type Words } from './word'
