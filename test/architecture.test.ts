@@ -1,0 +1,222 @@
+/**
+ * docs/architecture.md as a test: who may import whom, who may name sockets, timers and the clock, how long files get.
+ * When a rule is in the way of a better plan, the rule is changed here and in docs/architecture.md together.
+ */
+import { existsSync } from 'node:fs'
+import { join, posix } from 'node:path'
+import { describe, expect, test } from '@jest/globals'
+import { root } from './support/root'
+import { filesBelow, type Import, importsOf, nodesOf, parseTypeScript, readText, textOf } from './support/syntax'
+
+/** Each room and the rooms it may import, besides itself. */
+const ROOMS: Readonly<Record<string, readonly string[]>> = {
+  errors: [],
+  codec: ['errors'],
+  link: ['errors', 'codec'],
+  melsec: ['errors', 'codec', 'link'],
+  jw: ['errors', 'codec', 'link'],
+  value: ['errors'],
+  transport: ['errors'],
+  client: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'transport'],
+  simulator: ['errors', 'codec', 'link', 'melsec', 'jw', 'transport'],
+  index: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'transport', 'client', 'simulator'],
+  cli: ['index'],
+  nodes: ['index'],
+}
+
+/** Modules that are not ours, and the rooms that may name them. Any other is refused. */
+const OUTSIDE: readonly (readonly [RegExp, readonly string[]])[] = [
+  [/^node:(net|dgram|dns)$/, ['transport']],
+  [/^serialport$/, ['transport']],
+  [/^iconv-lite$/, ['value']],
+  [/^commander$/, ['cli']],
+  [/^node:buffer$/, Object.keys(ROOMS)],
+  // Time and the network reach the command line through the library like everybody else.
+  [/^node:(?!net$|dgram$|dns$|timers)/, ['cli']],
+]
+
+/** Names that only some rooms may use. */
+const NAMES: readonly (readonly [RegExp, readonly string[]])[] = [
+  [/^(setTimeout|setInterval|setImmediate|performance|hrtime)$/, ['transport']],
+  [/^Date\.now$/, ['transport']],
+  [/^process$/, ['cli', 'transport']],
+]
+
+const LONGEST_FILE = 500
+
+/** Tables, not code: each is one declaration that reads best in one piece. */
+const DATA_TABLES: readonly string[] = []
+
+interface SourceFile {
+  readonly path: string
+  readonly room: string
+  readonly imports: readonly Import[]
+  readonly names: readonly string[]
+}
+
+function readSource(path: string, text = readText(path)): SourceFile {
+  const tree = parseTypeScript(text)
+  return { path, room: roomOf(path), imports: importsOf(tree), names: namesOf([...nodesOf(tree)]) }
+}
+
+/** src/codec/cursor.ts is in codec, src/errors.ts in errors, nodes/read.ts in nodes. */
+function roomOf(path: string): string {
+  const [top, next] = path.split('/')
+  return top === 'src' && next !== undefined ? next.replace(/\.ts$/, '') : (top ?? '')
+}
+
+function namesOf(nodes: ReturnType<typeof parseTypeScript>[]): string[] {
+  return nodes.flatMap((node) => {
+    if (node.type === 'Identifier') return [textOf(node) ?? '']
+    if (node.type === 'MemberExpression') return [`${textOf(node.object) ?? ''}.${textOf(node.property) ?? ''}`]
+    return []
+  })
+}
+
+function resolved(from: string, specifier: string): string {
+  const target = posix.join(posix.dirname(from), specifier)
+  return existsSync(join(root, `${target}.ts`)) ? `${target}.ts` : `${target}/index.ts`
+}
+
+/** The import rules this file breaks, as sentences. */
+function brokenImports(file: SourceFile): string[] {
+  const allowed = [file.room, ...(ROOMS[file.room] ?? [])]
+  return file.imports.flatMap(({ specifier }) => {
+    if (!specifier.startsWith('.')) {
+      const rule = OUTSIDE.find(([names]) => names.test(specifier))
+      const named = rule?.[1].includes(file.room) || (file.room === 'nodes' && specifier === 'node-red')
+      return named ? [] : [`${file.path} may not import ${specifier}`]
+    }
+    if (/\.[jt]s$/.test(specifier)) return [`${file.path} imports ${specifier} with an extension`]
+    const target = resolved(file.path, specifier)
+    return allowed.includes(roomOf(target)) ? [] : [`${file.path} (${file.room}) may not import ${target}`]
+  })
+}
+
+function brokenNames(file: SourceFile): string[] {
+  return NAMES.flatMap(([pattern, rooms]) => {
+    if (rooms.includes(file.room)) return []
+    return [...new Set(file.names.filter((name) => pattern.test(name)))].map(
+      (name) => `${file.path} may not use ${name}`,
+    )
+  })
+}
+
+/** Which files each file needs before it can run. */
+function loadsOf(files: readonly SourceFile[]): Map<string, string[]> {
+  return new Map(
+    files.map(({ path, imports }) => {
+      const needed = imports.filter((entry) => !entry.typeOnly && entry.specifier.startsWith('.'))
+      return [path, needed.map(({ specifier }) => resolved(path, specifier))]
+    }),
+  )
+}
+
+/** Files that need each other to be loaded: whichever comes first sees the other half empty. */
+function circles(loads: ReadonlyMap<string, readonly string[]>): string[] {
+  const done = new Set<string>()
+  const found: string[] = []
+  const visit = (path: string, above: readonly string[]): void => {
+    const at = above.indexOf(path)
+    if (at >= 0) found.push([...above.slice(at), path].join(' -> '))
+    if (at >= 0 || done.has(path)) return
+    for (const target of loads.get(path) ?? []) visit(target, [...above, path])
+    done.add(path)
+  }
+  for (const path of loads.keys()) visit(path, [])
+  return found
+}
+
+const sources = [...filesBelow('src', '.ts'), ...filesBelow('nodes', '.ts')].map((path) => readSource(path))
+
+describe('the sources', () => {
+  test('are in a room that the table knows', () => {
+    expect(sources.length).toBeGreaterThan(0)
+    expect(sources.filter((file) => !(file.room in ROOMS)).map((file) => file.path)).toEqual([])
+  })
+
+  test('import only what their room may', () => {
+    expect(sources.flatMap(brokenImports)).toEqual([])
+  })
+
+  test('leave timers, the clock and the process to src/transport and the command line', () => {
+    expect(sources.flatMap(brokenNames)).toEqual([])
+  })
+
+  test('do not import each other in circles', () => {
+    expect(circles(loadsOf(sources))).toEqual([])
+  })
+
+  test('are short enough to be of one subject', () => {
+    const long = [...sources.map((file) => file.path), ...filesBelow('nodes', '.html')]
+      .map((path) => ({ path, lines: readText(path).split('\n').length }))
+      .filter(({ path, lines }) => lines > LONGEST_FILE && !DATA_TABLES.includes(path))
+    expect(long).toEqual([])
+  })
+})
+
+describe('the rules themselves catch', () => {
+  const imports = (text: string, path = 'src/codec/made-up.ts'): string[] => brokenImports(readSource(path, text))
+
+  test.each([
+    ['an import', `import { parseAddress } from '../melsec/address'`],
+    ['an import of types', `import type { Route } from '../melsec/route'`],
+    ['an inline type import', `import { type Route } from '../melsec/route'`],
+    ['a re-export', `export * from '../melsec/route'`],
+    ['a named re-export', `export { route } from '../melsec/route'`],
+    ['a dynamic import', `export const load = () => import('../melsec/route')`],
+    ['a require', `const { route } = require('../melsec/route')`],
+    ['an import assignment', `import route = require('../melsec/route')`],
+    ['a type query', `export type Route = import('../melsec/route').Route`],
+    ['a socket', `import net from 'node:net'`],
+    ['a file', `import { readFileSync } from 'node:fs'`],
+    ['a package', `import iconv from 'iconv-lite'`],
+    ['a computed name', `export const load = (name: string) => import(name)`],
+  ])('%s', (_what, text) => {
+    expect(imports(text)).toHaveLength(1)
+  })
+
+  test('an extension', () => {
+    expect(imports(`import { uint } from './field.js'`)).toEqual([expect.stringContaining('with an extension')])
+  })
+
+  test('a neighbour that may not be known', () => {
+    expect(imports(`import { jw } from '../jw/jw'`, 'src/melsec/made-up.ts')).toHaveLength(1)
+    expect(imports(`import { client } from '../client/client'`, 'src/simulator/made-up.ts')).toHaveLength(1)
+    expect(imports(`import { link } from '../link/session'`, 'src/transport/made-up.ts')).toHaveLength(1)
+    expect(imports(`import { codec } from '../src/codec/field'`, 'nodes/made-up.ts')).toHaveLength(1)
+    expect(imports(`import { plc } from '../src/index'`, 'nodes/made-up.ts')).toEqual([])
+  })
+
+  test('timers, the clock and the process', () => {
+    const text = `setTimeout(run, 1); globalThis.setInterval(run, 1); Date.now(); performance.now(); process.exit()`
+    expect(brokenNames(readSource('src/client/made-up.ts', text))).toHaveLength(5)
+    expect(brokenNames(readSource('src/transport/made-up.ts', text))).toHaveLength(1)
+    expect(brokenNames(readSource('src/client/made-up.ts', '/* setTimeout */ const text = "Date.now"'))).toEqual([])
+  })
+
+  test('a circle, but not one of types only', () => {
+    expect(
+      circles(
+        new Map([
+          ['a', ['b']],
+          ['b', ['c']],
+          ['c', ['a']],
+          ['d', ['a']],
+        ]),
+      ),
+    ).toEqual(['a -> b -> c -> a'])
+    expect(
+      circles(
+        new Map([
+          ['a', ['b', 'c']],
+          ['b', ['c']],
+          ['c', []],
+        ]),
+      ),
+    ).toEqual([])
+    const loads = (text: string) => [...loadsOf([readSource('src/codec/made-up.ts', text)]).values()]
+    expect(loads(`import { PlcError } from '../errors'`)).toEqual([['src/errors.ts']])
+    expect(loads(`import type { PlcError } from '../errors'; import { type Outcome } from '../errors'`)).toEqual([[]])
+  })
+})
