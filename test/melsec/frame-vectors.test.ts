@@ -68,6 +68,21 @@ function slmpCase(vector: FrameVector): FrameCase<Head3e> {
   }
 }
 
+/** Length of the response data, told from the request alone. */
+function measured({ command: name, code, form = 'short', request }: FrameVector): number {
+  const command = commands[name as CommandName]
+  const context: Context = { shape: command.request, message: given(request, 'request') }
+  return measure(command.response, { ascii: code === 'ascii', form: FORM_BITS[form], context })
+}
+
+describe.each(['slmp', 'mc-serial'] as const)('normal answers of %s', (family) => {
+  const answers = vectorsOfKind(family, 'frame').filter(({ side, endCode }) => side === 'response' && endCode === 0)
+
+  test.each(answers)('$id is measured from its request', (vector) => {
+    expect(measured(vector)).toBe(bodyOf(vector).length)
+  })
+})
+
 describe('3E and 4E frames', () => {
   const vectors = vectorsOfKind('slmp', 'frame')
   for (const vector of vectors) testFeedings(vector.id, vector.side, () => slmpCase(vector))
