@@ -76,10 +76,10 @@ export type Outcome<Head> =
   | { readonly kind: 'failed'; readonly error: PlcError }
 
 /** What a session tells its owner. */
-export type SessionEvent<Head> =
+export type SessionEvent<Head, J extends Job<Head> = Job<Head>> =
   | {
       readonly kind: 'done'
-      readonly job: Job<Head>
+      readonly job: J
       readonly outcome: Outcome<Head>
       readonly sentAt: number | undefined
     }
@@ -89,4 +89,4 @@ export type SessionEvent<Head> =
   /** The connection must be dropped: what arrives on it can no longer be attributed. */
   | { readonly kind: 'drop'; readonly error: PlcError }
   /** Datagrams without a serial number: the next request must leave from a new local port. */
-  | { readonly kind: 'renew' }
+  | { readonly kind: 'renew'; readonly reason: 'answered' | 'givenUp' }

@@ -17,8 +17,8 @@ export interface SessionOptions {
   readonly maxFrame?: number
 }
 
-interface Pending<Head> {
-  readonly job: Job<Head>
+interface Pending<J> {
+  readonly job: J
   readonly serial: number
   readonly sentAt: number
 }
@@ -29,13 +29,13 @@ const SERIALS = 0x10000
 const QUARANTINE = 256
 const MAX_FRAME = 65_536
 
-export class Session<Head> {
+export class Session<Head, J extends Job<Head> = Job<Head>> {
   readonly #framing: Framing<Head>
   readonly #options: SessionOptions
-  #pending: Pending<Head>[] = []
-  #waiting: Job<Head>[] = []
+  #pending: Pending<J>[] = []
+  #waiting: J[] = []
   #output: Buffer[] = []
-  #events: SessionEvent<Head>[] = []
+  #events: SessionEvent<Head, J>[] = []
   #received: Buffer = EMPTY
   #nextSerial = 0
   #quarantine: number[] = []
@@ -64,7 +64,7 @@ export class Session<Head> {
     return this.#waiting.length
   }
 
-  submit(job: Job<Head>, now: number): void {
+  submit(job: J, now: number): void {
     this.#waiting.push(job)
     this.#fill(now)
   }
@@ -73,7 +73,7 @@ export class Session<Head> {
    * Gives a job up. A request that is in flight may still be carried out and answered, so it ends as a timeout does.
    * @returns whether it had been sent; `undefined` when the session does not know the job.
    */
-  abandon(job: Job<Head>, now: number): boolean | undefined {
+  abandon(job: J, now: number): boolean | undefined {
     const waiting = this.#waiting.indexOf(job)
     if (waiting >= 0) {
       this.#waiting.splice(waiting, 1)
@@ -133,7 +133,7 @@ export class Session<Head> {
   }
 
   /** The next event, or `undefined`. */
-  poll(): SessionEvent<Head> | undefined {
+  poll(): SessionEvent<Head, J> | undefined {
     return this.#events.shift()
   }
 
@@ -228,7 +228,8 @@ export class Session<Head> {
       throw new ProtocolError('ECHO_MISMATCH', `The answer is not the request's: ${mismatch}.`)
     this.#pending.splice(at, 1)
     this.#finish(found.job, { kind: 'answered', frame }, found.sentAt)
-    if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order') this.#events.push({ kind: 'renew' })
+    if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order')
+      this.#events.push({ kind: 'renew', reason: 'answered' })
   }
 
   #unasked(bytes: Buffer): number {
@@ -239,14 +240,14 @@ export class Session<Head> {
     return bytes.length
   }
 
-  #giveUp(entries: readonly Pending<Head>[], why: string): void {
+  #giveUp(entries: readonly Pending<J>[], why: string): void {
     this.#pending = this.#pending.filter((entry) => !entries.includes(entry))
     if (this.#framing.correlation === 'serial') {
       this.#quarantine.push(...entries.map((entry) => entry.serial))
       this.#quarantine.splice(0, this.#quarantine.length - QUARANTINE)
       return
     }
-    if (this.#options.kind === 'datagram') this.#events.push({ kind: 'renew' })
+    if (this.#options.kind === 'datagram') this.#events.push({ kind: 'renew', reason: 'givenUp' })
     else
       this.#drop(
         new ProtocolError(
@@ -271,7 +272,7 @@ export class Session<Head> {
     this.#events.push({ kind: 'drop', error })
   }
 
-  #finish(job: Job<Head>, outcome: Outcome<Head>, sentAt: number | undefined): void {
+  #finish(job: J, outcome: Outcome<Head>, sentAt: number | undefined): void {
     this.#events.push({ kind: 'done', job, outcome, sentAt })
   }
 }

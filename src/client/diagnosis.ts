@@ -1,0 +1,45 @@
+// Why a PLC that can be reached says nothing: ranked causes, most likely first. A PLC never says which it is; these
+// are the settings that make one silent (FX5 communication manual: wrong data code "no response"; needs of the field).
+import type { DataCode } from '../codec/codec'
+import type { FrameName, TransportName } from '../melsec/profile'
+import type { Silence } from './connection'
+
+export interface LinkSettings {
+  readonly transport: TransportName
+  readonly port: number
+  readonly frame: FrameName
+  readonly code: DataCode
+  readonly route: { readonly network: number; readonly station: number }
+  /** Local port, when the user fixed it. */
+  readonly localPort?: number | undefined
+}
+
+const OTHER_CODE = { binary: 'ASCII', ascii: 'binary' } as const
+const OTHER_FRAME = { '3E': '4E', '4E': '3E' } as const
+
+/** Ranked causes of a silence, as sentences that say what to check. */
+export function explainSilence(settings: LinkSettings, silence: Silence): readonly string[] {
+  return silence.answeredBefore ? afterItWorked() : fromTheStart(settings)
+}
+
+function fromTheStart({ transport, port, frame, code, route, localPort }: LinkSettings): readonly string[] {
+  const dataCode = `The PLC's port is set to ${OTHER_CODE[code]} code and this connection to ${code}: compare "communication data code" in GX Works.`
+  const peer =
+    `UDP: the PLC sends its answer to the peer that is registered in its open settings; register this computer's address${localPort === undefined ? ' and set a fixed local port here' : ` and port ${localPort}`}, ` +
+    'or choose an entry that answers anybody. A firewall on the way has the same effect.'
+  const otherPort = `Port ${port} is open for something else (MELSOFT, socket, Modbus): use the port of an SLMP (MC protocol) entry.`
+  const otherFrame = `The PLC does not know the ${frame} frame: try ${OTHER_FRAME[frame]}${frame === '4E' ? ' (iQ-F and older E71 modules have 3E only)' : ''}.`
+  const elsewhere = `Network ${route.network}, station ${route.station} does not answer: check the route, or leave it at the own station.`
+  const routed = route.network !== 0 || route.station !== 0xff
+  const common = [dataCode, otherPort, otherFrame, 'The PLC is busy or the line slow: raise the timeout.']
+  const ranked = transport === 'udp' ? [peer, ...common] : common
+  return routed ? [elsewhere, ...ranked] : ranked
+}
+
+function afterItWorked(): readonly string[] {
+  return [
+    'The PLC is off, restarting, or its cable or a switch on the way is interrupted.',
+    'The PLC needed longer than the timeout: raise it, or ask for less at once.',
+    'The port settings of the PLC were changed (data code, entry, remote password) since it last answered.',
+  ]
+}

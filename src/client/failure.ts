@@ -1,0 +1,75 @@
+// The errors of a connection, with what to do about them.
+import { ClosedError, ConnectionError, type PlcError, TimeoutError } from '../errors'
+
+/** No connection now, and not the first attempt: fail at once instead of letting every call run into its deadline. */
+export function offline(title: string, reason: PlcError | undefined): ConnectionError {
+  const causes = reason instanceof ConnectionError || reason instanceof TimeoutError ? reason.causes : []
+  const text = reason === undefined ? '' : ` ${reason.message}`
+  const message = `${title} was not sent: there is no connection; it is being restored.${text}`
+  return new ConnectionError('OFFLINE', message, 'notSent', reason, causes)
+}
+
+export function closedBeforeSending(title: string): ClosedError {
+  return new ClosedError('CLOSED', `${title} was not sent: the client is closed.`)
+}
+
+export function closedMeanwhile(title: string, outcome: 'notSent' | 'unknown'): ClosedError {
+  const what = outcome === 'notSent' ? 'was not sent' : 'was in flight'
+  return new ClosedError('CLOSED', `${title} ${what} when the client was closed.`, outcome)
+}
+
+export function queueFull(title: string, waiting: number): ClosedError {
+  const message = `${title} was not sent: ${waiting} requests are waiting already. Ask less often, or raise queueLimit.`
+  return new ClosedError('QUEUE_FULL', message)
+}
+
+/** The PLC ended the connection. Without a single byte before it, that means that no entry was free. */
+export function closedByPeer(peer: string, receivedAnything: boolean): ConnectionError {
+  if (receivedAnything) {
+    return new ConnectionError('DISCONNECTED', `The PLC closed the connection (${peer}).`, 'unknown')
+  }
+  const message =
+    `${peer} accepted the connection and closed it at once. All connection entries of this port are probably taken, ` +
+    'also by a program that ended without closing. Close the other one, add an entry in the PLC parameters, or wait for the PLC to release it.'
+  return new ConnectionError('ENTRY_BUSY', message)
+}
+
+export function lostInFlight(title: string, reason: PlcError): ConnectionError {
+  const message = `The connection was lost while ${title} was in flight; whether the PLC carried it out is not known. ${reason.message}`
+  return new ConnectionError('DISCONNECTED', message, 'unknown', reason)
+}
+
+export function connectTimedOut(peer: string, ms: number): ConnectionError {
+  const message = `${peer} did not accept a connection within ${ms} ms. Check address, port, cable and whether the PLC is powered.`
+  return new ConnectionError('CONNECT_FAILED', message)
+}
+
+export function notSentInTime(title: string): TimeoutError {
+  const message = `${title} was not sent before its deadline: the connection or earlier requests took too long.`
+  return new TimeoutError(message, 'notSent')
+}
+
+export function noAnswer(title: string, peer: string, causes: readonly string[]): TimeoutError {
+  const likely = causes[0] === undefined ? '' : ` Most likely: ${causes[0]}`
+  return new TimeoutError(`${title}: no answer from ${peer} before the deadline.${likely}`, 'unknown', causes)
+}
+
+/** Connected, but nothing answers. */
+export function silent(peer: string, causes: readonly string[], cause: PlcError): ConnectionError {
+  const ranked = causes.map((text, i) => `${i + 1}. ${text}`).join(' ')
+  const message = `${peer} does not answer.${ranked === '' ? '' : ` Possible causes: ${ranked}`}`
+  return new ConnectionError('SILENT', message, 'unknown', cause, causes)
+}
+
+/** A request got no answer on a fixed local port of a frame without serial number: its answer may still be on the way. */
+export function quarantine(peer: string): ConnectionError {
+  const message =
+    `${peer} left a request unanswered. Its local port is fixed and the frame has no serial number, so the port rests ` +
+    'until a late answer can no longer be taken for the next one. Use the 4E frame or a free local port to avoid the pause.'
+  return new ConnectionError('DISCONNECTED', message, 'unknown')
+}
+
+/** A failure that is no `PlcError` is a bug of this package; it ends the connection and is reported, not thrown. */
+export function unexpected(error: unknown): ConnectionError {
+  return new ConnectionError('DISCONNECTED', `Unexpected failure: ${String(error)}`, 'unknown', error)
+}

@@ -1,0 +1,192 @@
+// The options of a MELSEC client: defaults and checks. Everything is checked here, before a connection is tried.
+import type { DataCode } from '../codec/codec'
+import { RequestError } from '../errors'
+import {
+  type FrameName,
+  inFlightBound,
+  type Profile,
+  type ProfileId,
+  type ProfileOverrides,
+  resolveProfile,
+  type TransportName,
+} from '../melsec/profile'
+import { completeRoute, type Route } from '../melsec/route'
+import { type Clock, realClock } from '../transport/clock'
+import type { OpenTransport } from '../transport/transport'
+import { checkFormat, type ValueFormat } from '../value/value'
+
+/** How to reach a MELSEC PLC and how to speak to it. Times in milliseconds. */
+export interface MelsecClientOptions {
+  /** Address or name of the PLC. */
+  readonly host: string
+  /** Port of an SLMP (MC protocol) entry of the PLC. */
+  readonly port: number
+  /** Default `tcp`. */
+  readonly transport?: TransportName
+  readonly localAddress?: string
+  /** Local port; default: any free one. */
+  readonly localPort?: number
+  /** Family of the PLC; default `generic`. It decides numbering, limits, forms and what is refused. */
+  readonly profile?: ProfileId | Profile
+  /** Own values for fields of the profile. */
+  readonly profileOverrides?: ProfileOverrides
+  /** Default: the profile's. */
+  readonly frame?: FrameName
+  /** Data code of the PLC's port; default `binary`. */
+  readonly code?: DataCode
+  /** Digits of X and Y in ASCII code, as the PLC's port is set; needed for X and Y of an iQ-F in ASCII code. */
+  readonly asciiXy?: 'octal' | 'hexadecimal'
+  /** How X and Y are numbered in addresses: 8 octal, 16 hexadecimal. Default: the profile's. */
+  readonly xyRadix?: 8 | 16
+  /** Station to speak to; default: the connected station. */
+  readonly route?: Partial<Route>
+  /** Time the PLC gives the request, a multiple of 250 up to 16383750; 0 = for ever. Default: the profile's. */
+  readonly monitoringTimer?: number
+  /** Default deadline of a call; 3000. */
+  readonly timeout?: number
+  /** Time for an attempt to connect; 5000. */
+  readonly connectTimeout?: number
+  /** Requests in flight at once; 1. More only with 4E over UDP, up to the profile's bound. */
+  readonly inFlight?: number
+  /** Requests that may wait; 256. One more is refused with `QUEUE_FULL`. */
+  readonly queueLimit?: number
+  /** Write commands are refused unless this is true. */
+  readonly allowWrites?: boolean
+  /** Remote control commands are refused unless this is true. */
+  readonly allowControl?: boolean
+  /** Words that may be read in vain to merge near items into one request; 64. */
+  readonly gap?: number
+  /** Default word order, byte order and text encoding of items. */
+  readonly format?: ValueFormat
+  /** Pauses after failed attempts to connect: first 500, doubled up to longest 30000, with jitter. */
+  readonly reconnect?: { readonly first?: number; readonly longest?: number }
+  /** Pause between closing a connection and opening the next; 50. */
+  readonly settleGap?: number
+  /** Makes the transport instead of `transport`, `host` and `port`: for tests and the in-process simulator. */
+  readonly openTransport?: OpenTransport
+  readonly clock?: Clock
+  /** 0 to below 1, for the jitter. */
+  readonly random?: () => number
+}
+
+/** Options with every default filled in. */
+export interface Settings {
+  readonly transport: TransportName
+  readonly profile: Profile
+  readonly frame: FrameName
+  readonly code: DataCode
+  readonly route: Route
+  /** In units of 250 ms. */
+  readonly timer: number
+  readonly xyRadix: 8 | 16
+  readonly timeout: number
+  readonly connectTimeout: number
+  readonly inFlight: number
+  readonly queueLimit: number
+  readonly allowWrites: boolean
+  readonly allowControl: boolean
+  readonly gap: number
+  readonly format: ValueFormat
+  readonly first: number
+  readonly longest: number
+  readonly settleGap: number
+  readonly clock: Clock
+  readonly random: () => number
+}
+
+const TIMER_UNIT = 250
+const LONGEST_TIMER = 0xffff * TIMER_UNIT
+const LONGEST = 24 * 60 * 60 * 1000
+
+/** @throws RequestError BAD_OPTION naming the option. */
+export function settle(options: MelsecClientOptions): Settings {
+  const profile = resolveProfile(options.profile ?? 'generic', options.profileOverrides)
+  const transport = oneOf('transport', options.transport ?? 'tcp', ['tcp', 'udp'])
+  const frame = frameOf(profile, options.frame)
+  if (options.openTransport === undefined) checkPeer(options)
+  checkFormat(options.format ?? {})
+  return {
+    transport,
+    profile,
+    frame,
+    code: oneOf('code', options.code ?? profile.code, ['binary', 'ascii']),
+    route: completeRoute(options.route),
+    timer: timerOf(profile, options.monitoringTimer),
+    xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
+    timeout: whole('timeout', options.timeout ?? 3000, 1, LONGEST),
+    connectTimeout: whole('connectTimeout', options.connectTimeout ?? 5000, 1, LONGEST),
+    inFlight: inFlightOf(profile, transport, frame, options.inFlight),
+    queueLimit: whole('queueLimit', options.queueLimit ?? 256, 1, 1_000_000),
+    allowWrites: oneOf('allowWrites', options.allowWrites ?? false, [true, false]),
+    allowControl: oneOf('allowControl', options.allowControl ?? false, [true, false]),
+    gap: whole('gap', options.gap ?? 64, 0, 960),
+    format: options.format ?? {},
+    first: whole('reconnect.first', options.reconnect?.first ?? 500, 1, LONGEST),
+    longest: whole('reconnect.longest', options.reconnect?.longest ?? 30_000, 1, LONGEST),
+    settleGap: whole('settleGap', options.settleGap ?? 50, 0, LONGEST),
+    clock: options.clock ?? realClock,
+    random: options.random ?? Math.random,
+  }
+}
+
+function checkPeer({ host, port }: MelsecClientOptions): void {
+  if (typeof host !== 'string' || host.trim() === '') {
+    throw new RequestError('BAD_OPTION', 'host is missing: give the address of the PLC, e.g. 192.168.3.39.', 'host')
+  }
+  whole('port', port, 1, 65_535)
+}
+
+function frameOf(profile: Profile, frame: FrameName | undefined): FrameName {
+  const chosen = frame ?? profile.frame
+  if (profile.frames.includes(chosen)) return chosen
+  throw new RequestError(
+    'BAD_OPTION',
+    `${profile.title} has no ${String(chosen)} frame: use ${profile.frames.join(' or ')}.`,
+    'frame',
+  )
+}
+
+function timerOf(profile: Profile, given: number | undefined): number {
+  const ms = whole('monitoringTimer', given ?? profile.monitoringTimer.default, 0, LONGEST_TIMER)
+  if (ms % TIMER_UNIT !== 0) {
+    throw new RequestError(
+      'BAD_OPTION',
+      `monitoringTimer is ${ms} ms; it counts in steps of 250 ms.`,
+      'monitoringTimer',
+    )
+  }
+  if (ms !== 0 && profile.monitoringTimer.zeroOnly) {
+    throw new RequestError('BAD_OPTION', `${profile.title} takes monitoringTimer 0 only.`, 'monitoringTimer')
+  }
+  return ms / TIMER_UNIT
+}
+
+function inFlightOf(profile: Profile, transport: TransportName, frame: FrameName, given: number | undefined): number {
+  const bound = inFlightBound(profile, transport, frame)
+  const inFlight = whole('inFlight', given ?? 1, 1, 65_535)
+  if (inFlight <= bound) return inFlight
+  const reason = bound === 1 ? 'more needs the 4E frame over UDP' : `the receive buffer of the PLC holds no more`
+  throw new RequestError(
+    'BAD_OPTION',
+    `inFlight is ${inFlight}; ${profile.title} over ${transport} with ${frame} takes ${bound}: ${reason}.`,
+    'inFlight',
+  )
+}
+
+function whole(field: string, value: number, min: number, max: number): number {
+  if (Number.isInteger(value) && value >= min && value <= max) return value
+  throw new RequestError(
+    'BAD_OPTION',
+    `${field} is ${String(value)}; it must be a whole number from ${min} to ${max}.`,
+    field,
+  )
+}
+
+function oneOf<const T>(field: string, value: T, values: readonly T[]): T {
+  if (values.includes(value)) return value
+  throw new RequestError(
+    'BAD_OPTION',
+    `${field} is ${String(value)}; it must be ${values.map(String).join(' or ')}.`,
+    field,
+  )
+}

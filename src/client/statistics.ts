@@ -1,0 +1,86 @@
+// What a client counts. Plain numbers for dashboards; nothing here costs anything that grows.
+
+/** Round-trip times in ms of the last answers. */
+export interface RoundTrip {
+  readonly count: number
+  readonly last: number
+  readonly min: number
+  readonly mean: number
+  readonly p50: number
+  readonly p95: number
+  readonly p99: number
+  readonly max: number
+}
+
+/** Counters since the client was made. */
+export interface Statistics {
+  readonly requests: number
+  readonly answered: number
+  /** Answers with an end code other than 0. */
+  readonly refused: number
+  readonly timeouts: number
+  readonly aborted: number
+  readonly protocolErrors: number
+  /** Answers to requests that had been given up. */
+  readonly stale: number
+  readonly connects: number
+  readonly disconnects: number
+  readonly bytesSent: number
+  readonly bytesReceived: number
+  readonly queued: number
+  readonly inFlight: number
+  /** Undefined until the first answer. */
+  readonly roundTrip: RoundTrip | undefined
+}
+
+export type Counter = Exclude<keyof Statistics, 'roundTrip' | 'queued' | 'inFlight'>
+
+const KEPT = 1024
+
+export class Counters {
+  readonly #counts: Record<Counter, number> = {
+    requests: 0,
+    answered: 0,
+    refused: 0,
+    timeouts: 0,
+    aborted: 0,
+    protocolErrors: 0,
+    stale: 0,
+    connects: 0,
+    disconnects: 0,
+    bytesSent: 0,
+    bytesReceived: 0,
+  }
+  readonly #times = new Float64Array(KEPT)
+  #timed = 0
+
+  add(counter: Counter, amount = 1): void {
+    this.#counts[counter] += amount
+  }
+
+  roundTrip(ms: number): void {
+    this.#times[this.#timed % KEPT] = ms
+    this.#timed += 1
+  }
+
+  read(queued: number, inFlight: number): Statistics {
+    return { ...this.#counts, queued, inFlight, roundTrip: this.#readRoundTrip() }
+  }
+
+  #readRoundTrip(): RoundTrip | undefined {
+    if (this.#timed === 0) return undefined
+    const count = Math.min(this.#timed, KEPT)
+    const sorted = this.#times.slice(0, count).sort()
+    const at = (share: number) => sorted[Math.min(count - 1, Math.floor(share * count))] as number
+    return {
+      count,
+      last: this.#times[(this.#timed - 1) % KEPT] as number,
+      min: at(0),
+      mean: sorted.reduce((sum, ms) => sum + ms, 0) / count,
+      p50: at(0.5),
+      p95: at(0.95),
+      p99: at(0.99),
+      max: at(1),
+    }
+  }
+}

@@ -1,0 +1,107 @@
+// When to connect, when to wait, when to fail fast: the life of one connection as a pure state machine.
+// Time is an argument; the shell (connection.ts) owns the transport and the timer.
+import type { PlcError } from '../errors'
+
+export type ConnectionStateName = 'idle' | 'connecting' | 'connected' | 'waiting' | 'closed'
+
+export interface SupervisorOptions {
+  /** First pause after a failed attempt, ms. Doubled each time, up to `longest`, with jitter. */
+  readonly first: number
+  readonly longest: number
+  /** Pause after a connection that worked, ms: a PLC needs a moment to release the entry. */
+  readonly settleGap: number
+  /** 0 to below 1. Spreads the attempts of many clients after a power cut. */
+  readonly random: () => number
+}
+
+/** A connection that lived at least this long was a good one: the next attempt starts afresh. */
+const STABLE = 5_000
+
+export class Supervisor {
+  readonly #options: SupervisorOptions
+  #name: ConnectionStateName = 'idle'
+  #attempt = 0
+  #connectedAt = 0
+  #nextAttempt: number | undefined
+  #error: PlcError | undefined
+
+  constructor(options: SupervisorOptions) {
+    this.#options = options
+  }
+
+  get name(): ConnectionStateName {
+    return this.#name
+  }
+
+  /** Attempts since the last connection that worked; the present one included. */
+  get attempt(): number {
+    return this.#attempt
+  }
+
+  /** Why there is no connection; undefined while there is one or nothing was tried. */
+  get error(): PlcError | undefined {
+    return this.#error
+  }
+
+  /** When the next attempt starts, while `waiting`. */
+  get nextAttempt(): number | undefined {
+    return this.#nextAttempt
+  }
+
+  /** Whether a request may wait for the connection: as long as no attempt has failed since the last good connection. */
+  get hopeful(): boolean {
+    if (this.#name === 'waiting') return this.#attempt === 0
+    return this.#name === 'idle' || (this.#name === 'connecting' && this.#attempt <= 1)
+  }
+
+  /** Somebody needs the connection. @returns whether the shell must open a transport now. */
+  want(): boolean {
+    if (this.#name !== 'idle') return false
+    this.#connect()
+    return true
+  }
+
+  /** Time has passed. @returns whether the shell must open a transport now. */
+  timeout(now: number): boolean {
+    if (this.#name !== 'waiting' || this.#nextAttempt === undefined || now < this.#nextAttempt) return false
+    this.#connect()
+    return true
+  }
+
+  /** The PLC answered: the connection is good. */
+  connected(now: number): void {
+    this.#name = 'connected'
+    this.#attempt = 0
+    this.#error = undefined
+    this.#connectedAt = now
+  }
+
+  /** The attempt failed, or the connection is gone or was dropped. */
+  lost(error: PlcError, now: number, pauseAtLeast = 0): void {
+    if (this.#name === 'closed') return
+    const wasGood = this.#name === 'connected'
+    // A connection that breaks again and again right after it was made must not become a storm of connects.
+    if (wasGood && now - this.#connectedAt < STABLE) this.#attempt = 1
+    this.#name = 'waiting'
+    this.#error = error
+    this.#nextAttempt = now + Math.max(pauseAtLeast, this.#pause())
+  }
+
+  close(): void {
+    this.#name = 'closed'
+    this.#nextAttempt = undefined
+  }
+
+  #connect(): void {
+    this.#name = 'connecting'
+    this.#attempt += 1
+    this.#nextAttempt = undefined
+  }
+
+  #pause(): number {
+    const { first, longest, settleGap, random } = this.#options
+    if (this.#attempt === 0) return settleGap
+    const backOff = Math.min(longest, first * 2 ** Math.min(this.#attempt - 1, 30))
+    return Math.max(settleGap, backOff * (0.5 + random() / 2))
+  }
+}
