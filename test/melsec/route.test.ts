@@ -1,0 +1,147 @@
+import { describe, expect, test } from '@jest/globals'
+import fc from 'fast-check'
+import { RequestError } from '../../src/errors'
+import {
+  completeRoute,
+  describeRoute,
+  formatRoute,
+  moduleIoNumbers,
+  ownStation,
+  parseRoute,
+  type Route,
+} from '../../src/melsec/route'
+
+function refusal(run: () => unknown): RequestError {
+  try {
+    run()
+  } catch (error) {
+    if (error instanceof RequestError) return error
+    throw error
+  }
+  throw new Error('not refused')
+}
+
+describe('a route', () => {
+  test('is the connected station when nothing is given', () => {
+    expect(completeRoute()).toEqual({ network: 0, station: 255, moduleIo: 0x3ff, multidrop: 0 })
+    const fromJavaScript: unknown = { network: undefined }
+    expect(completeRoute(fromJavaScript as Partial<Route>)).toEqual(ownStation)
+  })
+
+  test('reaches stations 1 to 120 and the master stations of networks 1 to 239', () => {
+    for (const network of [1, 239]) {
+      for (const station of [1, 120, 125, 126]) {
+        expect(completeRoute({ network, station })).toEqual({ ...ownStation, network, station })
+      }
+    }
+  })
+
+  test('reaches every named module I/O number of the manual', () => {
+    const numbers = moduleIoNumbers.map(({ number }) => number.toString(16)).sort()
+    expect(numbers).toEqual(['3d0', '3d1', '3d2', '3d3', '3e0', '3e1', '3e2', '3e3', '3ff'])
+    for (const { number } of moduleIoNumbers) expect(completeRoute({ moduleIo: number }).moduleIo).toBe(number)
+  })
+
+  test('reaches multidrop stations 0 to 31 behind a serial module', () => {
+    expect(completeRoute({ moduleIo: 0, multidrop: 31 })).toEqual({ ...ownStation, moduleIo: 0, multidrop: 31 })
+    expect(completeRoute({ network: 2, station: 5, moduleIo: 0x1ff, multidrop: 0 }).moduleIo).toBe(0x1ff)
+  })
+
+  const REFUSED: [Partial<Route>, string, string][] = [
+    [{ network: 240, station: 1 }, 'network', '1 to 239'],
+    [{ network: -1, station: 1 }, 'network', '1 to 239'],
+    [{ network: 1.5, station: 1 }, 'network', '1 to 239'],
+    [{ station: 1 }, 'network', 'number of its network'],
+    [{ network: 1 }, 'station', 'in network 0'],
+    [{ network: 1, station: 0 }, 'station', '1 to 120'],
+    [{ network: 1, station: 121 }, 'station', 'station extension frame'],
+    [{ network: 1, station: 124 }, 'station', 'station extension frame'],
+    [{ network: 1, station: 127 }, 'station', '1 to 120'],
+    [{ network: 1, station: Number.NaN }, 'station', '1 to 120'],
+    [{ moduleIo: 0x200 }, 'moduleIo', '03FF'],
+    [{ moduleIo: 0x3e4 }, 'moduleIo', '03E3'],
+    [{ moduleIo: 0x10000 }, 'moduleIo', '65536'],
+    [{ multidrop: 1 }, 'multidrop', 'serial module'],
+    [{ moduleIo: 0, multidrop: 32 }, 'multidrop', '0 to 31'],
+    [{ moduleIo: 0, multidrop: -1 }, 'multidrop', '0 to 31'],
+  ]
+  test.each(REFUSED)('%j is refused because of its %s', (part, field, message) => {
+    const error = refusal(() => completeRoute(part))
+    expect(error.code).toBe('OUT_OF_RANGE')
+    expect(error.field).toBe(`route.${field}`)
+    expect(error.message).toContain(message)
+  })
+
+  test('a misspelt field is refused, not ignored', () => {
+    const error = refusal(() => completeRoute({ stations: 1 } as Partial<Route>))
+    expect(error.code).toBe('BAD_OPTION')
+    expect(error.message).toContain('stations')
+  })
+})
+
+describe('text', () => {
+  test.each<[string, Route]>([
+    ['own', ownStation],
+    [' OWN ', ownStation],
+    ['0/255', ownStation],
+    ['1/3', { network: 1, station: 3, moduleIo: 0x3ff, multidrop: 0 }],
+    ['1/3/cpu2', { network: 1, station: 3, moduleIo: 0x3e1, multidrop: 0 }],
+    ['0/255/3E0', { ...ownStation, moduleIo: 0x3e0 }],
+    ['0 / 255 / systemA', { ...ownStation, moduleIo: 0x3d2 }],
+    ['1/3/0004/5', { network: 1, station: 3, moduleIo: 4, multidrop: 5 }],
+  ])('%s', (text, route) => {
+    expect(parseRoute(text)).toEqual(route)
+    expect(parseRoute(formatRoute(route))).toEqual(route)
+  })
+
+  test.each(['', '1', '1/2/3FF/0/0', 'a/1', '1/x', '1/2/zz', '1/2/3FF/x', '-1/2', '1/2/'])('%j is no route', (text) => {
+    expect(refusal(() => parseRoute(text)).code).toBe('BAD_OPTION')
+  })
+
+  test('a number that does not exist is out of range', () => {
+    expect(refusal(() => parseRoute('1/121')).code).toBe('OUT_OF_RANGE')
+    expect(refusal(() => parseRoute('1/2/0200')).code).toBe('OUT_OF_RANGE')
+  })
+
+  test('describes any station, also one a PLC reports that no request could name', () => {
+    expect(describeRoute(ownStation)).toBe('network 0, station 255, module I/O 03FF, multidrop 0')
+    expect(describeRoute({ network: 255, station: 254, moduleIo: 0xffff, multidrop: 200 })).toBe(
+      'network 255, station 254, module I/O FFFF, multidrop 200',
+    )
+  })
+
+  test('parsing what was formatted gives the same route', () => {
+    const place = fc.oneof(
+      fc.constant({ network: 0, station: 255 }),
+      fc.record({
+        network: fc.integer({ min: 1, max: 239 }),
+        station: fc.oneof(fc.integer({ min: 1, max: 120 }), fc.constantFrom(125, 126)),
+      }),
+    )
+    const module = fc.oneof(
+      fc.record({
+        moduleIo: fc.constantFrom(...moduleIoNumbers.map(({ number }) => number)),
+        multidrop: fc.constant(0),
+      }),
+      fc.record({ moduleIo: fc.integer({ min: 0, max: 0x1ff }), multidrop: fc.integer({ min: 0, max: 31 }) }),
+    )
+    fc.assert(
+      fc.property(place, module, (where, what) => {
+        const route = completeRoute({ ...where, ...what })
+        expect(parseRoute(formatRoute(route))).toEqual(route)
+      }),
+    )
+  })
+
+  test('any text is a route or a RequestError', () => {
+    fc.assert(
+      fc.property(fc.oneof(fc.string(), fc.string({ unit: fc.constantFrom(...'0123456789/aFwn ') })), (text) => {
+        try {
+          parseRoute(text)
+        } catch (error) {
+          expect(error).toBeInstanceOf(RequestError)
+        }
+      }),
+    )
+  })
+})
