@@ -36,6 +36,8 @@ export interface MelsecClientOptions {
   readonly code?: DataCode
   /** Digits of X and Y in ASCII code, as the PLC's port is set; needed for X and Y of an iQ-F in ASCII code. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
+  /** Digits of ZR in ASCII code; needed for ZR in ASCII code, because the manuals disagree. */
+  readonly asciiZr?: 'decimal' | 'hexadecimal'
   /** How X and Y are numbered in addresses: 8 octal, 16 hexadecimal. Default: the profile's. */
   readonly xyRadix?: 8 | 16
   /** Station to speak to; default: the connected station. */

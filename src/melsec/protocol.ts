@@ -5,7 +5,7 @@ import { EndCodeError, ProtocolError, RequestError } from '../errors'
 import type { Exchange, Framing, RequestFrame, ResponseFrame } from '../link/link'
 import type { Command, RequestOf, ResponseOf } from './command'
 import { type CommandName, commands } from './commands/commands'
-import { FORM_XY_OCTAL } from './device-codec'
+import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf } from './device-uses'
 import { explainEndCode } from './end-code'
 import { type ErrorInformation, errorInformation } from './error-information'
@@ -26,7 +26,12 @@ export interface MelsecProtocolOptions<Head> {
    * that number X and Y in octal have it; without it their X and Y are refused in ASCII code, because the wrong
    * choice would address other inputs and outputs without any error.
    */
-  readonly asciiXy?: 'octal' | 'hexadecimal'
+  readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
+  /**
+   * Digits of ZR in ASCII code. The SLMP manual prints hexadecimal, GX Works and the FX5 manual decimal, and no
+   * answer tells which the PLC took; so ZR is refused in ASCII code until this says it.
+   */
+  readonly asciiZr?: 'decimal' | 'hexadecimal' | undefined
 }
 
 /** What a call may say beside the message. */
@@ -51,21 +56,49 @@ export interface UnknownRequest {
   readonly unknown: { readonly command: number; readonly subcommand: number }
 }
 
+/** Devices whose digits in ASCII code depend on a setting that was not given. */
+interface UnknownDigits {
+  readonly of: readonly string[]
+  readonly option: 'asciiXy' | 'asciiZr'
+  readonly message: string
+}
+
+function unknownDigits(options: MelsecProtocolOptions<unknown>): UnknownDigits[] {
+  const { code, profile, asciiXy, asciiZr } = options
+  const unknown: UnknownDigits[] = []
+  if (code !== 'ascii') return unknown
+  if (profile.xyRadix === 8 && asciiXy === undefined) {
+    const message =
+      `${profile.title} takes octal or hexadecimal digits, depending on its communication data code ` +
+      '"ASCII (X,Y OCT)" or "ASCII (X,Y HEX)". Set the option asciiXy to octal or hexadecimal as in the PLC.'
+    unknown.push({ of: ['X', 'Y'], option: 'asciiXy', message })
+  }
+  if (asciiZr === undefined) {
+    const message =
+      'the manuals disagree whether its number is sent in decimal or hexadecimal digits, and the wrong one would ' +
+      'address another register. Set the option asciiZr (try it on a register whose value you know), use R, or binary code.'
+    unknown.push({ of: ['ZR'], option: 'asciiZr', message })
+  }
+  return unknown
+}
+
 export class MelsecProtocol<Head> {
   readonly framing: Framing<Head>
   readonly profile: Profile
   readonly code: DataCode
   readonly #head: Head
-  readonly #xyBits: number
-  readonly #xyUnknown: boolean
+  /** Form bits that are settings of the port and not part of the subcommand. */
+  readonly #digitBits: number
+  readonly #unknownDigits: readonly UnknownDigits[]
 
   constructor(options: MelsecProtocolOptions<Head>) {
     this.framing = options.framing
     this.profile = options.profile
     this.code = options.code
     this.#head = options.head
-    this.#xyBits = options.asciiXy === 'octal' ? FORM_XY_OCTAL : 0
-    this.#xyUnknown = options.code === 'ascii' && options.profile.xyRadix === 8 && options.asciiXy === undefined
+    this.#digitBits =
+      (options.asciiXy === 'octal' ? FORM_XY_OCTAL : 0) | (options.asciiZr === 'hexadecimal' ? FORM_ZR_HEX : 0)
+    this.#unknownDigits = unknownDigits(options)
   }
 
   /**
@@ -81,7 +114,7 @@ export class MelsecProtocol<Head> {
     const form = this.#formOf(command, bag, options)
     checkLimits(this.profile, command.name as CommandName, form, this.code, bag)
     const context = this.#contextOf(command, bag, options)
-    const bits = FORM_BITS[form] | this.#xyBits
+    const bits = FORM_BITS[form] | this.#digitBits
     const subcommand = subcommandOf(command, form, this.profile)
     const writer = writerOf(this.code, bits)
     writer.uint(command.code, 2)
@@ -100,20 +133,16 @@ export class MelsecProtocol<Head> {
 
   #formOf(command: Command, message: Bag, options: ExchangeOptions): DeviceForm {
     const found = devicesOf(command, message)
-    if (this.#xyUnknown) this.#refuseUnknownXy(found.map(({ address }) => address.device))
-    const form = chooseForm(this.profile, command, found, this.code, this.#xyBits)
+    if (this.#unknownDigits.length > 0) this.#refuseUnknownDigits(found.map(({ address }) => address.device))
+    const form = chooseForm(this.profile, command, found, this.code, this.#digitBits)
     return options.form ?? form
   }
 
-  #refuseUnknownXy(devices: readonly string[]): void {
-    const device = devices.find((name) => name === 'X' || name === 'Y')
-    if (device === undefined) return
-    throw new RequestError(
-      'BAD_OPTION',
-      `${device} in ASCII code: ${this.profile.title} sends X and Y as octal or as hexadecimal digits, depending on its ` +
-        'communication data code "ASCII (X,Y OCT)" or "ASCII (X,Y HEX)". Set the option asciiXy to octal or hexadecimal as in the PLC.',
-      'asciiXy',
-    )
+  #refuseUnknownDigits(devices: readonly string[]): void {
+    for (const { of, message, option } of this.#unknownDigits) {
+      const device = devices.find((name) => of.includes(name))
+      if (device !== undefined) throw new RequestError('BAD_OPTION', `${device} in ASCII code: ${message}`, option)
+    }
   }
 
   #contextOf(command: Command, message: Bag, options: ExchangeOptions): Context {
@@ -180,7 +209,7 @@ export class MelsecProtocol<Head> {
     const subcommand = head.uint(2)
     const known = this.#commandOf(code, subcommand)
     if (known === undefined) return { unknown: { command: code, subcommand } }
-    const reader = readerOf(this.code, frame.body.subarray(head.position), FORM_BITS[known.form] | this.#xyBits)
+    const reader = readerOf(this.code, frame.body.subarray(head.position), FORM_BITS[known.form] | this.#digitBits)
     const message = decode(known.command.request, reader)
     reader.end()
     return { ...known, subcommand, message }
@@ -206,7 +235,7 @@ export class MelsecProtocol<Head> {
     context: Bag = request.message,
   ): Buffer {
     const { command, form } = request
-    const writer = writerOf(this.code, FORM_BITS[form] | this.#xyBits)
+    const writer = writerOf(this.code, FORM_BITS[form] | this.#digitBits)
     const shape = command.context === undefined ? command.request : commands[command.context as CommandName].request
     encode(command.response, response, writer, { shape, message: context })
     return writer.take()

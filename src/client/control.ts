@@ -1,0 +1,103 @@
+// Remote control of the CPU and the commands about the PLC itself: thin, named calls over the declarations.
+import { ProtocolError } from '../errors'
+import type { Command, RequestOf, ResponseOf } from '../melsec/command'
+import { type CommandName, commands } from '../melsec/commands/commands'
+import { modelOf } from '../melsec/model-code'
+import type { ProfileId } from '../melsec/profile'
+import type { CallOptions } from './call'
+
+/** Sends one command: what the client gives to the functions here. */
+export type Send = <C extends Command<(typeof commands)[CommandName], string>>(
+  command: C,
+  message: RequestOf<C>,
+  options?: CallOptions,
+) => Promise<ResponseOf<C>>
+
+/** What Remote Run may clear. */
+export type ClearMode = 'keep' | 'exceptLatched' | 'all'
+const CLEAR_MODES = { keep: 0, exceptLatched: 1, all: 2 } as const satisfies Record<ClearMode, number>
+
+export interface RunOptions extends CallOptions {
+  /** Also when another device stopped or paused the CPU: for when that device is broken. Default false. */
+  readonly force?: boolean
+  /** Devices cleared before it runs; initial values of the parameters are set after. Default `keep`. */
+  readonly clear?: ClearMode
+}
+
+export interface PauseOptions extends CallOptions {
+  readonly force?: boolean
+}
+
+/**
+ * Remote control (SLMP reference manual 5.6). Every call needs `allowControl` and is never repeated.
+ * The PLC forgets the remote state when it is powered off or reset.
+ */
+export interface Control {
+  /**
+   * Remote RUN. With the switch of the CPU at STOP it completes normally, but the CPU stays in STOP.
+   * @throws EndCodeError when another device stopped it and `force` is not given.
+   */
+  run(options?: RunOptions): Promise<void>
+  /** Remote STOP. */
+  stop(options?: CallOptions): Promise<void>
+  /** Remote PAUSE: the program stops, outputs are held. */
+  pause(options?: PauseOptions): Promise<void>
+  /** Clears the latched devices; the CPU must be in STOP. `value`: the field some manuals print as 0 (FX5); default 1. */
+  latchClear(options?: CallOptions & { readonly value?: 0 | 1 }): Promise<void>
+  /** Resets the CPU, which must be in STOP and permit it by parameter. Silence and a lost connection are its success. */
+  reset(options?: CallOptions): Promise<void>
+}
+
+/** Who the PLC says it is. */
+export interface Identity {
+  /** Name as the PLC sends it, without padding. */
+  readonly model: string
+  readonly modelCode: number
+  /** CPUs that have this code: more certain than the name. Empty when the code is in neither manual. */
+  readonly models: readonly string[]
+  readonly series?: string
+  /** The profile that fits. */
+  readonly profile?: ProfileId
+}
+
+export function controlOf(send: Send): Control {
+  const mode = (force: boolean | undefined) => (force === true ? 3 : 1)
+  return {
+    run: async ({ force, clear, ...call } = {}) => {
+      await send(commands.remoteRun, { mode: mode(force), clearMode: CLEAR_MODES[clear ?? 'keep'] }, call)
+    },
+    stop: async (call = {}) => {
+      await send(commands.remoteStop, {}, call)
+    },
+    pause: async ({ force, ...call } = {}) => {
+      await send(commands.remotePause, { mode: mode(force) }, call)
+    },
+    latchClear: async ({ value, ...call } = {}) => {
+      await send(commands.remoteLatchClear, value === undefined ? {} : { fixed: value }, call)
+    },
+    reset: async (call = {}) => {
+      await send(commands.remoteReset, {}, call)
+    },
+  }
+}
+
+export async function identify(send: Send, options?: CallOptions): Promise<Identity> {
+  const { model, modelCode } = await send(commands.readTypeName, {}, options)
+  const known = modelOf(modelCode)
+  return {
+    model: model.trimEnd(),
+    modelCode,
+    models: known?.models ?? [],
+    ...(known?.series === undefined ? {} : { series: known.series }),
+    ...(known?.profile === undefined ? {} : { profile: known.profile }),
+  }
+}
+
+const LOOPBACK = '0123456789ABCDEF'
+
+/** @throws ProtocolError ECHO_MISMATCH when what comes back is not what was sent. */
+export async function selfTest(send: Send, data = LOOPBACK, options?: CallOptions): Promise<void> {
+  const echoed = await send(commands.selfTest, { data }, options)
+  if (echoed.data === data) return
+  throw new ProtocolError('ECHO_MISMATCH', `Self Test: the PLC returned "${echoed.data}" instead of "${data}".`)
+}
