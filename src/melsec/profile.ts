@@ -1,0 +1,228 @@
+// What a family of PLCs is like, as data: numbering, frames, forms, limits, what it lacks and how it refuses.
+
+import type { DataCode } from '../codec/codec'
+import { RequestError } from '../errors'
+import type { CommandName } from './commands/commands'
+import type { DeviceName, ExtensionKind } from './device'
+import type { LimitRule, LimitUnit } from './limit'
+import { generic } from './profiles/generic'
+import { iqF } from './profiles/iq-f'
+import { iqR } from './profiles/iq-r'
+import { l } from './profiles/l'
+import { withOverrides } from './profiles/override'
+import { q } from './profiles/q'
+
+export type ProfileId = 'iq-r' | 'iq-f' | 'q' | 'l' | 'generic'
+export type FrameName = '3E' | '4E'
+export type TransportName = 'tcp' | 'udp'
+/** Device specification: the subcommands 000x, 0002/0003 (iQ-R), 0080/0081 and 0082/0083. */
+export type DeviceForm = 'short' | 'long' | 'extendedShort' | 'extendedLong'
+
+/** A command this family does not have, or not on each of its ports. */
+export interface Lack {
+  readonly command: CommandName
+  /** End code the PLC answers to it. */
+  readonly endCode: number
+  readonly reason: string
+  /** What to do instead. */
+  readonly instead: string
+  readonly source: string
+}
+
+/** Devices that some commands do not take on this family, beside the restrictions of the SLMP manual. */
+export interface DeviceExclusion {
+  readonly commands: readonly CommandName[]
+  readonly devices: readonly DeviceName[]
+  readonly endCode: number
+  readonly reason: string
+  readonly instead: string
+  readonly source: string
+}
+
+/** End codes of refusals that are about no limit. */
+export interface Refusals {
+  /** Device number outside the range. */
+  readonly deviceNumber: number
+  /** Device name this CPU does not have. */
+  readonly deviceName: number
+  /** Bit units on a word device. */
+  readonly bitUnitsOfWordDevice: number
+  /** The module or network behind an extension is not there, or cannot be reached. */
+  readonly extension: number
+  /** Unknown command or subcommand. */
+  readonly command: number
+  /** Execute Monitor without Entry Monitor Device. */
+  readonly monitorNotRegistered: number
+  /** Request data longer or shorter than the request says. */
+  readonly length: number
+  /** Remote control refused: wrong CPU state for it (latch clear or reset while not in STOP). */
+  readonly notInStop: number
+  /** Remote control refused: another device stopped or paused the CPU, or reset is not permitted by parameter. */
+  readonly remote: number
+  readonly source: string
+}
+
+export interface InFlight {
+  /** Requests in flight on one TCP connection. */
+  readonly tcp: number
+  /** Messages the receive buffer holds: over UDP with serial numbers 1 + (udpBuffer / connections in use), rounded down. */
+  readonly udpBuffer: number
+  readonly source: string
+}
+
+export interface MonitoringTimer {
+  /** In ms, a multiple of 250. 0 is "wait for ever" on the PLC's side. */
+  readonly default: number
+  /** The PLC takes nothing but 0. */
+  readonly zeroOnly: boolean
+  /** Recommended for the own station, in ms. */
+  readonly recommended?: { readonly from: number; readonly to: number }
+  readonly source: string
+}
+
+export interface RemoteFacts {
+  /** Clear modes Remote RUN takes. */
+  readonly clearModes: readonly (0 | 1 | 2)[]
+  /** Conditions of a remote reset, for people. */
+  readonly reset: string
+  readonly source: string
+}
+
+export interface DeviceRanges {
+  /** Points per device; the numbers go from 0 to points - 1. A device that is not here is not checked. */
+  readonly points: Readonly<Partial<Record<DeviceName, number>>>
+  readonly source: string
+}
+
+export interface Subcommand {
+  readonly value: number
+  readonly source: string
+}
+
+/** Everything the rest of the package knows about a family of PLCs. Plain data. */
+export interface Profile {
+  readonly id: ProfileId
+  readonly title: string
+  /** CPUs and modules it stands for. */
+  readonly series: string
+  /** How X and Y are numbered in the engineering tool: `X17` is octal on iQ-F, hexadecimal elsewhere. */
+  readonly xyRadix: 8 | 16
+  readonly frames: readonly FrameName[]
+  /** Default frame. */
+  readonly frame: FrameName
+  readonly codes: readonly DataCode[]
+  /** Default data code. */
+  readonly code: DataCode
+  readonly transports: readonly TransportName[]
+  readonly forms: readonly DeviceForm[]
+  /** Default form; a device without a short code takes the first form of `forms` that has it. */
+  readonly form: 'short' | 'long'
+  /** Devices with a one-byte code on this family only. */
+  readonly shortDevices: readonly DeviceName[]
+  /** Extensions of an address this family takes: `J1\\W10`, `U3\\G100`, `U3E0\\HG0`. */
+  readonly extensions: readonly ExtensionKind[]
+  /** Device names this family does not have. */
+  readonly absentDevices: readonly DeviceName[]
+  readonly lacks: readonly Lack[]
+  /** Not on every CPU or module of the family: sent when asked for, never chosen by the planner. */
+  readonly doubtful: readonly Lack[]
+  readonly exclusions: readonly DeviceExclusion[]
+  readonly limits: readonly LimitRule[]
+  readonly ranges: DeviceRanges
+  readonly refusals: Refusals
+  readonly inFlight: InFlight
+  readonly monitoringTimer: MonitoringTimer
+  /** Subcommands other than the computed ones. */
+  readonly subcommands: Readonly<Partial<Record<CommandName, Subcommand>>>
+  readonly remote: RemoteFacts
+  /** What people should know about ports, settings and oddities. */
+  readonly notes: readonly string[]
+  /** Where the single figures above come from. */
+  readonly sources: Readonly<Record<'xyRadix' | 'frames' | 'forms' | 'extensions' | 'absentDevices', string>>
+}
+
+/**
+ * Own maxima. A number is for a command with a single limit; block commands and Write Random (word units) name the unit.
+ * It holds in every form and code.
+ */
+export type LimitOverrides = Readonly<
+  Partial<Record<CommandName, number | Readonly<Partial<Record<LimitUnit, number>>>>>
+>
+
+/** What a user may set differently. Each field is merged into the profile's, entry by entry. */
+export interface ProfileOverrides {
+  readonly xyRadix?: 8 | 16
+  readonly frame?: FrameName
+  readonly limits?: LimitOverrides
+  /** `true` or a reason: the PLC lacks the command; `false`: it has it (also takes it off the doubtful ones). */
+  readonly lacks?: Readonly<Partial<Record<CommandName, boolean | string>>>
+  readonly ranges?: Readonly<Partial<Record<DeviceName, number>>>
+  readonly subcommands?: Readonly<Partial<Record<CommandName, number>>>
+  readonly inFlight?: { readonly tcp?: number; readonly udpBuffer?: number }
+}
+
+/** Every profile by its id. */
+export const profiles: Readonly<Record<ProfileId, Profile>> = { 'iq-r': iqR, 'iq-f': iqF, q, l, generic }
+
+export const profileIds: readonly ProfileId[] = ['iq-r', 'iq-f', 'q', 'l', 'generic']
+
+function isProfileId(id: string): id is ProfileId {
+  return Object.hasOwn(profiles, id)
+}
+
+function profileOf(id: string): Profile {
+  if (isProfileId(id)) return profiles[id]
+  throw new RequestError(
+    'BAD_OPTION',
+    `There is no profile "${id}". Choose one of: ${profileIds.join(', ')}.`,
+    'profile',
+  )
+}
+
+/**
+ * The profile with an id, or the one given, with the user's own values merged in field by field.
+ *
+ * @throws RequestError BAD_OPTION: unknown id, or an override that cannot be.
+ * @example resolveProfile('q', { lacks: { readBlock: true, writeBlock: true }, limits: { readWords: 480 } })
+ */
+export function resolveProfile(idOrProfile: ProfileId | Profile, overrides?: ProfileOverrides): Profile {
+  const profile = typeof idOrProfile === 'string' ? profileOf(idOrProfile) : idOrProfile
+  return overrides === undefined ? profile : withOverrides(profile, overrides)
+}
+
+/** Why this family has not got the command, and what to do instead; undefined when it has it. */
+export function lackOf(profile: Profile, command: CommandName): Lack | undefined {
+  return profile.lacks.find((lack) => lack.command === command)
+}
+
+/** Why the planner should not choose the command by itself; undefined when it may. */
+export function doubtOf(profile: Profile, command: CommandName): Lack | undefined {
+  return profile.doubtful.find((lack) => lack.command === command)
+}
+
+/** Why the command does not take the device on this family; undefined when nothing is known against it. */
+export function exclusionOf(profile: Profile, command: CommandName, device: DeviceName): DeviceExclusion | undefined {
+  return profile.exclusions.find(
+    (exclusion) => exclusion.commands.includes(command) && exclusion.devices.includes(device),
+  )
+}
+
+/**
+ * How many requests may be in flight (SLMP reference manual 3.3). Pipelining needs the serial number of the 4E frame and
+ * datagrams: over TCP an FX5U answers only the last of two requests that arrive together.
+ *
+ * @throws RequestError BAD_OPTION when `connections` is not a whole number of at least 1.
+ * @example inFlightBound(resolveProfile('iq-r'), 'udp', '4E') // 33
+ */
+export function inFlightBound(profile: Profile, transport: TransportName, frame: FrameName, connections = 1): number {
+  if (!Number.isInteger(connections) || connections < 1) {
+    throw new RequestError(
+      'BAD_OPTION',
+      `connections must be a whole number of at least 1, not ${connections}.`,
+      'connections',
+    )
+  }
+  if (frame !== '4E') return 1
+  if (transport === 'tcp') return profile.inFlight.tcp
+  return 1 + Math.floor(profile.inFlight.udpBuffer / connections)
+}

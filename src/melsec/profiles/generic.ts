@@ -1,0 +1,36 @@
+import type { Profile } from '../profile'
+import { iqF } from './iq-f'
+import { iqR } from './iq-r'
+
+/** For a PLC nobody knows: every form and command, and of all limits the lower ones. */
+export const generic: Profile = {
+  ...iqR,
+  id: 'generic',
+  title: 'generic SLMP device',
+  series: 'any device that speaks SLMP or the MC protocol',
+  frame: '3E',
+  form: 'short',
+  lacks: [],
+  doubtful: iqF.lacks,
+  exclusions: [],
+  // Both tables at once: all limits of a command hold together, so the lower figure wins (limitsOf). Those of Q and L
+  // are never below iQ-R's.
+  limits: [...iqR.limits, ...iqF.limits],
+  ranges: { points: {}, source: 'unknown: no device number is checked' },
+  inFlight: { tcp: 1, udpBuffer: 0, source: 'the lowest of all profiles' },
+  monitoringTimer: {
+    default: 0,
+    zeroOnly: false,
+    recommended: { from: 250, to: 10_000 },
+    source: '0 is taken by every family, FX5 CPU modules take nothing else',
+  },
+  notes: [
+    'Choose the profile of your PLC when you know it: it knows the numbering of X and Y, the limits and what the PLC lacks.',
+  ],
+  sources: {
+    ...iqR.sources,
+    frames: '3E is on every SLMP device',
+    forms: 'every form of the SLMP reference manual',
+    absentDevices: 'unknown',
+  },
+}

@@ -1,0 +1,116 @@
+import type { Profile } from '../profile'
+import { iqRLimits } from './limits'
+import { pointsOf } from './ranges'
+
+/** Figures of SLMP reference manual SH(NA)-081293 unless said otherwise. */
+export const iqR: Profile = {
+  id: 'iq-r',
+  title: 'MELSEC iQ-R',
+  series: 'R00 to R120 CPUs (also EN, P, SF, PSF) by their Ethernet port or RJ71EN71; iQ-L and MELSEC MX behave alike',
+  xyRadix: 16,
+  frames: ['4E', '3E'],
+  frame: '4E',
+  codes: ['binary', 'ascii'],
+  code: 'binary',
+  transports: ['tcp', 'udp'],
+  forms: ['short', 'long', 'extendedShort', 'extendedLong'],
+  form: 'long',
+  shortDevices: [],
+  extensions: ['link', 'module', 'cpu'],
+  absentDevices: [],
+  lacks: [],
+  doubtful: [
+    {
+      command: 'clearError',
+      endCode: 0xc059,
+      reason:
+        'The SLMP manual lists Clear Error for the NZ2GF-ETB only; Ethernet modules know it from the MC protocol.',
+      instead: 'Clear the error in GX Works or by the CPU program (SM50).',
+      source: 'table of commands and devices, marked as damaged in the edition at hand',
+    },
+  ],
+  exclusions: [
+    {
+      commands: ['writeBits', 'writeWords', 'writeRandomBits', 'writeRandomWords', 'writeBlock'],
+      devices: ['S'],
+      endCode: 0x4030,
+      reason: 'Step relays can be read but not written.',
+      instead: 'Control the SFC program with M devices or SFC instructions.',
+      source: 'measured by others: R120PCPU answers 4030',
+    },
+  ],
+  limits: iqRLimits,
+  ranges: {
+    points: pointsOf(
+      {
+        SM: 4096,
+        SD: 4096,
+        X: 12288,
+        Y: 12288,
+        DX: 12288,
+        DY: 12288,
+        M: 12288,
+        L: 8192,
+        F: 2048,
+        V: 2048,
+        B: 8192,
+        SB: 2048,
+        S: 1024,
+        D: 18432,
+        W: 8192,
+        SW: 2048,
+        Z: 20,
+        LZ: 2,
+        R: 32768,
+        ZR: 65536,
+        RD: 524288,
+      },
+      { T: 1024, ST: 1024, C: 512, LT: 1024, LST: 1024, LC: 512 },
+    ),
+    source:
+      'background: defaults of R04CPU to R120CPU (CPU parameter, memory/device setting); Z and LZ measured by others. ' +
+      'ST, LST, S, R and ZR have no points until a project gives them some: usual values',
+  },
+  refusals: {
+    deviceNumber: 0x4031,
+    deviceName: 0x4030,
+    bitUnitsOfWordDevice: 0xc05c,
+    extension: 0x4043,
+    command: 0xc059,
+    monitorNotRegistered: 0xc05d,
+    length: 0xc061,
+    notInStop: 0x4013,
+    remote: 0x408b,
+    source:
+      'device number and name measured by others on R120PCPU; the others background (error code lists of CPU and Ethernet modules)',
+  },
+  inFlight: {
+    tcp: 1,
+    udpBuffer: 32,
+    source: '3.3: RCPU 1 + 32 / connections (RJ71EN71: 190). TCP: one at a time, so that no PLC can merge two requests',
+  },
+  monitoringTimer: {
+    default: 4000,
+    zeroOnly: false,
+    recommended: { from: 250, to: 10_000 },
+    source: '4.1 monitoring timer: 01H to 28H for the own station',
+  },
+  subcommands: {},
+  remote: {
+    clearModes: [0, 1, 2],
+    reset: 'only in STOP, and only if the CPU parameter "Remote Reset" is enabled; no answer when it succeeds',
+    source: 'SLMP reference manual 5.6',
+  },
+  notes: [
+    'SLMP needs an entry in GX Works3: "External Device Configuration" of the Ethernet port, with protocol, port number and "Enable Online Change" for writing.',
+    'The built-in Ethernet port reaches its own station only; other networks need an RJ71EN71 or a network module (SLMP reference manual 2.3).',
+    'Labels answer only with "Access from External Device" ticked in GX Works3.',
+  ],
+  sources: {
+    xyRadix: 'device table of the SLMP reference manual',
+    frames: '4.1; 4E as default for its serial number',
+    forms: '5.2: 0002/0003 for iQ-R, 0000/0001 for compatibility with Q and L',
+    extensions: 'appendix 1',
+    absentDevices: 'device table of the SLMP reference manual',
+  },
+}

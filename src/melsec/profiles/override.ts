@@ -1,0 +1,165 @@
+// Merges what a user sets differently into a profile. Nothing is dropped: what cannot be is refused.
+import { RequestError } from '../../errors'
+import { type CommandName, commands } from '../commands/commands'
+import { type DeviceName, findDevice } from '../device'
+import type { LimitRule, LimitUnit } from '../limit'
+import type { Lack, LimitOverrides, Profile, ProfileOverrides } from '../profile'
+
+const SOURCE = 'set by the user'
+
+function bad(field: string, message: string): never {
+  throw new RequestError('BAD_OPTION', message, field)
+}
+
+function whole(value: number, min: number, max: number, field: string): number {
+  if (Number.isInteger(value) && value >= min && value <= max) return value
+  const range = max === Number.MAX_SAFE_INTEGER ? `of at least ${min}` : `from ${min} to ${max}`
+  bad(field, `${field} must be a whole number ${range}, not ${String(value)}.`)
+}
+
+function isCommandName(name: string): name is CommandName {
+  return Object.hasOwn(commands, name)
+}
+
+function byCommand<V>(field: string, values: Readonly<Partial<Record<CommandName, V>>>): [CommandName, V][] {
+  return Object.entries<V>(values).map(([name, value]) => {
+    if (!isCommandName(name))
+      bad(`${field}.${name}`, `There is no command ${name}. Commands: ${Object.keys(commands).join(', ')}.`)
+    return [name, value]
+  })
+}
+
+function unitsOf(rules: readonly LimitRule[], command: CommandName): readonly LimitUnit[] {
+  return [...new Set(rules.filter((rule) => rule.commands.includes(command)).map((rule) => rule.unit))]
+}
+
+/** The maxima by unit; a bare number stands for the only unit the command has. */
+function maximaOf(
+  units: readonly LimitUnit[],
+  command: CommandName,
+  given: number | Readonly<Partial<Record<LimitUnit, number>>>,
+): ReadonlyMap<LimitUnit, number> {
+  const field = `profile.limits.${command}`
+  const [only] = units
+  if (only === undefined) bad(field, `${command} has no limit that could be set.`)
+  if (typeof given === 'number' && units.length > 1) {
+    const example = units.map((unit) => `${unit}: ${given}`).join(', ')
+    bad(field, `${command} has several limits; name the one you mean, e.g. { ${example} }.`)
+  }
+  const maxima = new Map<LimitUnit, number>()
+  for (const [name, max] of Object.entries(typeof given === 'number' ? { [only]: given } : given)) {
+    const unit = units.find((known) => known === name)
+    if (unit === undefined) bad(`${field}.${name}`, `${command} has no limit in ${name}; it has: ${units.join(', ')}.`)
+    maxima.set(unit, whole(max, 1, Number.MAX_SAFE_INTEGER, `${field}.${name}`))
+  }
+  return maxima
+}
+
+/** Replaces the maximum of one unit of one command in every form and code. */
+function replaced(
+  rules: readonly LimitRule[],
+  command: CommandName,
+  unit: LimitUnit,
+  max: number,
+): readonly LimitRule[] {
+  return rules.flatMap((rule) => {
+    if (rule.unit !== unit || !rule.commands.includes(command)) return [rule]
+    const { asciiFactor, extendedFactor, ...plain } = rule
+    const own = { ...plain, commands: [command], max, source: SOURCE }
+    const others = rule.commands.filter((other) => other !== command)
+    return others.length === 0 ? [own] : [{ ...rule, commands: others }, own]
+  })
+}
+
+function withLimits(profile: Profile, overrides: LimitOverrides): Profile {
+  let limits = profile.limits
+  for (const [command, given] of byCommand('profile.limits', overrides)) {
+    for (const [unit, max] of maximaOf(unitsOf(limits, command), command, given)) {
+      limits = replaced(limits, command, unit, max)
+    }
+  }
+  return { ...profile, limits }
+}
+
+function withLacks(profile: Profile, overrides: NonNullable<ProfileOverrides['lacks']>): Profile {
+  let { lacks, doubtful } = profile
+  for (const [command, given] of byCommand('profile.lacks', overrides)) {
+    const known = [...lacks, ...doubtful].find((lack) => lack.command === command)
+    lacks = lacks.filter((lack) => lack.command !== command)
+    doubtful = doubtful.filter((lack) => lack.command !== command)
+    if (given !== false) lacks = [...lacks, lackSet(profile, command, given, known)]
+  }
+  return { ...profile, lacks, doubtful }
+}
+
+function lackSet(profile: Profile, command: CommandName, given: true | string, known: Lack | undefined): Lack {
+  return {
+    command,
+    endCode: known?.endCode ?? profile.refusals.command,
+    reason: typeof given === 'string' ? given : (known?.reason ?? 'It is marked as lacking in the settings.'),
+    instead: known?.instead ?? 'Use another command, or change the setting.',
+    source: SOURCE,
+  }
+}
+
+function withRanges(profile: Profile, overrides: Readonly<Partial<Record<DeviceName, number>>>): Profile {
+  for (const [name, points] of Object.entries(overrides)) {
+    if (findDevice(name) === undefined) bad(`profile.ranges.${name}`, `There is no device ${name}.`)
+    whole(points, 0, Number.MAX_SAFE_INTEGER, `profile.ranges.${name}`)
+  }
+  const { points, source } = profile.ranges
+  return { ...profile, ranges: { points: { ...points, ...overrides }, source: `${source}; ${SOURCE}` } }
+}
+
+function withSubcommands(profile: Profile, overrides: NonNullable<ProfileOverrides['subcommands']>): Profile {
+  const own = byCommand('profile.subcommands', overrides).map(([command, given]) => {
+    const value = whole(given, 0, 0xffff, `profile.subcommands.${command}`)
+    return [command, { value, source: SOURCE }] as const
+  })
+  return { ...profile, subcommands: { ...profile.subcommands, ...Object.fromEntries(own) } }
+}
+
+function withInFlight(profile: Profile, overrides: NonNullable<ProfileOverrides['inFlight']>): Profile {
+  const { tcp = profile.inFlight.tcp, udpBuffer = profile.inFlight.udpBuffer } = overrides
+  whole(tcp, 1, Number.MAX_SAFE_INTEGER, 'profile.inFlight.tcp')
+  whole(udpBuffer, 0, Number.MAX_SAFE_INTEGER, 'profile.inFlight.udpBuffer')
+  return { ...profile, inFlight: { tcp, udpBuffer, source: SOURCE } }
+}
+
+function withXyRadix(profile: Profile, xyRadix: 8 | 16): Profile {
+  if (xyRadix === 8 || xyRadix === 16) return { ...profile, xyRadix }
+  return bad('profile.xyRadix', `profile.xyRadix is 8 (octal) or 16 (hexadecimal), not ${String(xyRadix)}.`)
+}
+
+function withFrame(profile: Profile, frame: Profile['frame']): Profile {
+  if (profile.frames.includes(frame)) return { ...profile, frame }
+  return bad('profile.frame', `${profile.title} has no ${String(frame)} frame. Use ${profile.frames.join(' or ')}.`)
+}
+
+const FIELDS = {
+  xyRadix: true,
+  frame: true,
+  limits: true,
+  lacks: true,
+  ranges: true,
+  subcommands: true,
+  inFlight: true,
+} as const satisfies Readonly<Record<keyof ProfileOverrides, true>>
+
+/** @throws RequestError BAD_OPTION: a field, command, device or unit that does not exist, or a value that cannot be. */
+export function withOverrides(profile: Profile, overrides: ProfileOverrides): Profile {
+  for (const name of Object.keys(overrides)) {
+    if (Object.hasOwn(FIELDS, name)) continue
+    bad(`profile.${name}`, `A profile has no ${name} that could be set. Fields: ${Object.keys(FIELDS).join(', ')}.`)
+  }
+  const { xyRadix, frame, limits, lacks, ranges, subcommands, inFlight } = overrides
+  let merged = profile
+  if (xyRadix !== undefined) merged = withXyRadix(merged, xyRadix)
+  if (frame !== undefined) merged = withFrame(merged, frame)
+  if (limits !== undefined) merged = withLimits(merged, limits)
+  if (lacks !== undefined) merged = withLacks(merged, lacks)
+  if (ranges !== undefined) merged = withRanges(merged, ranges)
+  if (subcommands !== undefined) merged = withSubcommands(merged, subcommands)
+  if (inFlight !== undefined) merged = withInFlight(merged, inFlight)
+  return merged
+}

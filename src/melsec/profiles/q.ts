@@ -1,0 +1,152 @@
+import type { DeviceName } from '../device'
+import type { Lack, Profile } from '../profile'
+import { qAndLLimits } from './limits'
+import { pointsOf } from './ranges'
+
+/** What Q and L share: long devices came with iQ-R. */
+export const absentOnQAndL: readonly DeviceName[] = [
+  'LTS',
+  'LTC',
+  'LTN',
+  'LSTS',
+  'LSTC',
+  'LSTN',
+  'LCS',
+  'LCC',
+  'LCN',
+  'LZ',
+  'RD',
+  'HG',
+]
+
+const builtIn =
+  'measured by others: the built-in Ethernet ports of QnUDV and LCPU answer C059, Ethernet modules (E71) have it'
+
+/** Not on the CPU's own Ethernet port. */
+export const doubtfulOnQAndL: readonly Lack[] = [
+  {
+    command: 'readBlock',
+    endCode: 0xc059,
+    reason: 'Built-in Ethernet ports do not have it.',
+    instead: 'Use Read Random or several Reads.',
+    source: builtIn,
+  },
+  {
+    command: 'writeBlock',
+    endCode: 0xc059,
+    reason: 'Built-in Ethernet ports do not have it.',
+    instead: 'Use Write Random or several Writes.',
+    source: builtIn,
+  },
+  {
+    command: 'readTypeName',
+    endCode: 0xc059,
+    reason: 'Built-in Ethernet ports do not have it.',
+    instead: 'Take any successful read as the sign of life, and name the CPU yourself.',
+    source: builtIn,
+  },
+  {
+    command: 'clearError',
+    endCode: 0xc059,
+    reason: 'The SLMP manual lists Clear Error for the NZ2GF-ETB only; Ethernet modules know it from the MC protocol.',
+    instead: 'Clear the error in GX Works or by the CPU program (SM50).',
+    source: 'table of commands and devices of the SLMP reference manual, marked as damaged in the edition at hand',
+  },
+]
+
+/** Figures of SLMP reference manual SH(NA)-081293 unless said otherwise. */
+export const q: Profile = {
+  id: 'q',
+  title: 'MELSEC-Q',
+  series: 'QCPU by QJ71E71-100, and QnUDE, QnUDV and QnUDPV CPUs by their own Ethernet port',
+  xyRadix: 16,
+  frames: ['3E', '4E'],
+  frame: '3E',
+  codes: ['binary', 'ascii'],
+  code: 'binary',
+  transports: ['tcp', 'udp'],
+  forms: ['short', 'extendedShort'],
+  form: 'short',
+  shortDevices: [],
+  extensions: ['link', 'module'],
+  absentDevices: absentOnQAndL,
+  lacks: [],
+  doubtful: doubtfulOnQAndL,
+  exclusions: [],
+  limits: qAndLLimits,
+  ranges: {
+    points: pointsOf(
+      {
+        SM: 2048,
+        SD: 2048,
+        X: 8192,
+        Y: 8192,
+        DX: 8192,
+        DY: 8192,
+        M: 8192,
+        L: 8192,
+        F: 2048,
+        V: 2048,
+        B: 8192,
+        SB: 2048,
+        S: 8192,
+        D: 12288,
+        W: 8192,
+        SW: 2048,
+        Z: 20,
+        R: 32768,
+        ZR: 393216,
+      },
+      { T: 2048, ST: 2048, C: 1024 },
+    ),
+    source:
+      'background: defaults of the Universal model QCPU (device tab of the PLC parameter); Z, R and ZR measured by others on Q06UDV. ' +
+      'ST has no points until a project gives it some: a usual value',
+  },
+  refusals: {
+    deviceNumber: 0x4031,
+    deviceName: 0xc05b,
+    bitUnitsOfWordDevice: 0xc05c,
+    extension: 0xc070,
+    command: 0xc059,
+    monitorNotRegistered: 0xc05d,
+    length: 0xc061,
+    notInStop: 0x4013,
+    remote: 0x408b,
+    source:
+      'device number, device name, command and extension measured by others on QnUDV; the others background (error code lists of CPU and Ethernet modules)',
+  },
+  inFlight: {
+    tcp: 1,
+    udpBuffer: 57,
+    source:
+      '3.3: QJ71E71-100 1 + 57 / connections (QnUDV, QnUDPV: 576). TCP: one at a time, so that no PLC can merge two requests',
+  },
+  monitoringTimer: {
+    default: 4000,
+    zeroOnly: false,
+    recommended: { from: 250, to: 10_000 },
+    source: '4.1 monitoring timer: 01H to 28H for the own station',
+  },
+  subcommands: {},
+  remote: {
+    clearModes: [0, 1, 2],
+    reset: 'only in STOP, and only if the PLC parameter "Remote Reset" is enabled; no answer when it succeeds',
+    source: 'SLMP reference manual 5.6',
+  },
+  notes: [
+    'Built-in port: PLC Parameter, Built-in Ethernet Port Setting, Open Setting, "MC Protocol", with the port number; tick "Enable online change" for writing.',
+    'QJ71E71-100: UDP port 5000 is open without a setting ("Auto open UDP port"), as long as it is not assigned otherwise.',
+    'Built-in ports refuse module access (U\\G) with C070; Ethernet modules have it.',
+    'Read Random and Entry Monitor Device count ZR double on High Performance model QCPUs.',
+    'Write Random over its limit is answered with 4080 by Ethernet modules, with C054 by built-in ports (measured by others).',
+    '4E exists on current modules only: 3E is the default because every one of them has it.',
+  ],
+  sources: {
+    xyRadix: 'device table of the SLMP reference manual',
+    frames: '4.1 and appendix 2; 3E as default because older modules and CPUs lack 4E (background)',
+    forms: '5.2: 0000/0001 and 0080/0081 for Q and L',
+    extensions: 'appendix 1: CPU buffer memory is for iQ-R',
+    absentDevices: 'measured by others on QnUDV, L02S and L26: C05B',
+  },
+}
