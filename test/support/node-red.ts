@@ -248,7 +248,9 @@ class RunningNodeRed implements NodeRed {
   async started(): Promise<void> {
     try {
       this.url = await this.#until('Node-RED to listen', START, () => {
-        return this.#loaded ? /now running at (http:\/\/\S+)/.exec(this.#output)?.[1] : undefined
+        // The (empty) flows start by themselves first: their start must not be taken for that of the first deploy.
+        const ready = this.#loaded && this.#starts > 0
+        return ready ? /now running at (http:\/\/\S+)/.exec(this.#output)?.[1] : undefined
       })
     } catch (error) {
       this.child.kill('SIGKILL')
