@@ -1,9 +1,9 @@
 // Remote control of the CPU and the commands about the PLC itself: thin, named calls over the declarations.
-import { ProtocolError } from '../errors'
+import { ProtocolError, RequestError } from '../errors'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { type CommandName, commands } from '../melsec/commands/commands'
 import { modelOf } from '../melsec/model-code'
-import type { ProfileId } from '../melsec/profile'
+import type { Profile, ProfileId } from '../melsec/profile'
 import type { CallOptions } from './call'
 
 /** Sends one command: what the client gives to the functions here. */
@@ -60,11 +60,19 @@ export interface Identity {
   readonly profile?: ProfileId
 }
 
-export function controlOf(send: Send): Control {
+export function controlOf(send: Send, profile: Profile): Control {
   const mode = (force: boolean | undefined) => (force === true ? 3 : 1)
   return {
     run: async ({ force, clear, ...call } = {}) => {
-      await send(commands.remoteRun, { mode: mode(force), clearMode: CLEAR_MODES[clear ?? 'keep'] }, call)
+      const clearMode = CLEAR_MODES[clear ?? 'keep']
+      if (!profile.remote.clearModes.includes(clearMode)) {
+        throw new RequestError(
+          'UNSUPPORTED',
+          `${profile.title} cannot clear devices with Remote Run: leave clear at keep.`,
+          'clear',
+        )
+      }
+      await send(commands.remoteRun, { mode: mode(force), clearMode }, call)
     },
     stop: async (call = {}) => {
       await send(commands.remoteStop, {}, call)

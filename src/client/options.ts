@@ -81,6 +81,8 @@ export interface Settings {
   /** In units of 250 ms. */
   readonly timer: number
   readonly xyRadix: 8 | 16
+  /** Neither the profile nor the user says how X and Y are numbered. */
+  readonly xyUnknown: boolean
   readonly timeout: number
   readonly connectTimeout: number
   readonly inFlight: number
@@ -115,6 +117,7 @@ export function settle(options: MelsecClientOptions): Settings {
     route: completeRoute(options.route),
     timer: timerOf(profile, options.monitoringTimer),
     xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
+    xyUnknown: profile.id === 'generic' && (options.xyRadix ?? options.profileOverrides?.xyRadix) === undefined,
     timeout: whole('timeout', options.timeout ?? 3000, 1, LONGEST),
     connectTimeout: whole('connectTimeout', options.connectTimeout ?? 5000, 1, LONGEST),
     inFlight: inFlightOf(profile, transport, frame, options.inFlight),

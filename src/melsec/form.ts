@@ -48,10 +48,15 @@ export function chooseForm(
   found: readonly FoundDevice[],
   code: DataCode,
   extraBits: number,
+  wanted?: DeviceForm,
 ): DeviceForm {
   checkCommand(profile, command)
   for (const device of found) checkDevice(profile, command, device)
-  const form = found.length === 0 ? profile.form : formFor(profile, found)
+  if (wanted !== undefined && !profile.forms.includes(wanted)) {
+    const forms = profile.forms.join(', ')
+    throw new RequestError('UNSUPPORTED', `${profile.title} does not have the ${wanted} form, only ${forms}.`, 'form')
+  }
+  const form = wanted ?? (found.length === 0 ? profile.form : formFor(profile, found))
   for (const { address, path } of found) {
     const problem = formProblem(address, code === 'ascii', FORM_BITS[form] | extraBits)
     if (problem !== undefined) throw new RequestError(problem.code, problem.message, path)
@@ -68,12 +73,9 @@ function formFor(profile: Profile, found: readonly FoundDevice[]): DeviceForm {
       (candidate) =>
         (FORM_BITS[candidate] & need) === need && (need & FORM_EXTENDED) === (FORM_BITS[candidate] & FORM_EXTENDED),
     ) ?? ordered.find((candidate) => (FORM_BITS[candidate] & need) === need)
-  if (form === undefined)
-    throw new RequestError(
-      'UNSUPPORTED',
-      `${profile.title} has no form that can address ${found.map(({ address }) => `${address.device}${address.number}`).join(', ')}.`,
-    )
-  return form
+  if (form !== undefined) return form
+  const asked = found.map(({ address }) => `${address.device}${address.number}`).join(', ')
+  throw new RequestError('UNSUPPORTED', `${profile.title} has no form that can address ${asked}.`)
 }
 
 function needOf(profile: Profile, address: FoundDevice['address']): number {
@@ -91,11 +93,24 @@ function checkCommand(profile: Profile, command: Command): void {
   )
 }
 
+const EXTENSION_TITLES = {
+  link: 'link direct devices (J1\\W10)',
+  module: 'the buffer memory of modules (U3\\G100)',
+  cpu: 'the buffer memory of CPUs (U3E0\\G100)',
+} as const
+
 function checkDevice(profile: Profile, command: Command, { address, use, path }: FoundDevice): void {
   const problem = accessProblem(address, use)
   if (problem !== undefined) throw new RequestError(problem.code, problem.message, path)
   if (profile.absentDevices.includes(address.device)) {
     throw new RequestError('UNSUPPORTED', `${profile.title} has no device ${address.device}.`, path)
+  }
+  if (address.extension !== undefined && !profile.extensions.includes(address.extension.kind)) {
+    throw new RequestError(
+      'UNSUPPORTED',
+      `${profile.title} does not take ${EXTENSION_TITLES[address.extension.kind]}.`,
+      path,
+    )
   }
   const exclusion = exclusionOf(profile, command.name as CommandName, address.device)
   if (exclusion !== undefined) {

@@ -134,8 +134,7 @@ export class MelsecProtocol<Head> {
   #formOf(command: Command, message: Bag, options: ExchangeOptions): DeviceForm {
     const found = devicesOf(command, message)
     if (this.#unknownDigits.length > 0) this.#refuseUnknownDigits(found.map(({ address }) => address.device))
-    const form = chooseForm(this.profile, command, found, this.code, this.#digitBits)
-    return options.form ?? form
+    return chooseForm(this.profile, command, found, this.code, this.#digitBits, options.form)
   }
 
   #refuseUnknownDigits(devices: readonly string[]): void {
@@ -179,7 +178,7 @@ export class MelsecProtocol<Head> {
         `The answer with end code ${hex4(frame.endCode)} is about command ${hex4(information.command)}, not ${hex4(command.code)}.`,
       )
     }
-    const text = explainEndCode(frame.endCode)
+    const text = explainEndCode(frame.endCode, { command: command.name as CommandName })
     const station = information === undefined ? undefined : describeStation(information)
     const meaning = text === undefined ? 'No text is known for this code.' : `${text.meaning} ${text.remedy}`
     return new EndCodeError(
