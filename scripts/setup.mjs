@@ -3,6 +3,7 @@
 //
 //   node scripts/setup.mjs             install what is missing, build what is stale
 //   node scripts/setup.mjs --build     build only (never touches node_modules)
+//   node scripts/setup.mjs --unchecked build only, type errors or not: for tests of a tree that is being worked on
 import { spawnSync } from 'node:child_process'
 import { createHash } from 'node:crypto'
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs'
@@ -100,7 +101,7 @@ function wantedBuild() {
  * Compiles into a fresh folder and swaps it in: a failed or interrupted build leaves the old dist alone, and nothing
  * that no source makes any more stays behind. The folder lies beside dist, so that relative paths come out the same.
  */
-export function build() {
+export function build({ unchecked = false } = {}) {
   const wanted = wantedBuild()
   if (readOrEmpty(buildStamp) === wanted) return
   console.log('setup: building dist')
@@ -109,27 +110,34 @@ export function build() {
   try {
     rmSync(fresh, { recursive: true, force: true })
     const tsc = join(root, 'node_modules', 'typescript', 'bin', 'tsc')
-    run('The build (tsc)', process.execPath, [tsc, '-p', 'tsconfig.json', '--outDir', fresh])
+    const compile = [tsc, '-p', 'tsconfig.json', '--outDir', fresh]
+    if (unchecked) spawnSync(process.execPath, [...compile, '--noEmitOnError', 'false'], { cwd: root })
+    else run('The build (tsc)', process.execPath, compile)
     for (const file of assets()) {
       mkdirSync(dirname(join(fresh, file)), { recursive: true })
       cpSync(join(root, file), join(fresh, file))
     }
-    writeFileSync(join(fresh, '.build-hash'), `${wanted}\n`)
-    swapIn(fresh, old, wanted)
+    // Without the stamp the next set-up builds again, and then checks.
+    if (!unchecked) writeFileSync(join(fresh, '.build-hash'), `${wanted}\n`)
+    swapIn(fresh, old)
   } finally {
     rmSync(fresh, { recursive: true, force: true })
     rmSync(old, { recursive: true, force: true })
   }
 }
 
-function swapIn(fresh, old, wanted) {
-  try {
-    moveIfThere(dist, old)
-    renameSync(fresh, dist)
-  } catch (error) {
-    // Two test workers may build at once; the other's result is as good when it is of the same sources.
-    if (readOrEmpty(buildStamp) === wanted) return
-    throw new SetupError(`dist could not be replaced (${error.code}): stop the programs that use it and try again.`)
+/** Two test workers may build at once: then one finds the other's dist in its place, and replaces that. */
+function swapIn(fresh, old) {
+  mkdirSync(old, { recursive: true })
+  for (let attempt = 1; ; attempt += 1) {
+    try {
+      moveIfThere(dist, join(old, String(attempt)))
+      renameSync(fresh, dist)
+      return
+    } catch (error) {
+      if (['ENOTEMPTY', 'EEXIST'].includes(error.code) && attempt < 10) continue
+      throw new SetupError(`dist could not be replaced (${error.code}): stop the programs that use it and try again.`)
+    }
   }
 }
 
@@ -141,13 +149,13 @@ function moveIfThere(from, to) {
   }
 }
 
-export function setup({ buildOnly = false } = {}) {
+export function setup({ buildOnly = false, unchecked = false } = {}) {
   const major = Number(process.versions.node.split('.')[0])
   if (major < LOWEST_NODE) {
     throw new SetupError(`Node.js ${process.versions.node} is too old: this project needs ${LOWEST_NODE} or newer.`)
   }
-  if (!buildOnly) install()
-  build()
+  if (!buildOnly && !unchecked) install()
+  build({ unchecked })
 }
 
 /** Runs a script's main function: a SetupError becomes one clear line and exit code 1. */
@@ -161,5 +169,6 @@ export async function main(body) {
 }
 
 if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) {
-  await main(() => setup({ buildOnly: process.argv.includes('--build') }))
+  const asked = new Set(process.argv.slice(2))
+  await main(() => setup({ buildOnly: asked.has('--build'), unchecked: asked.has('--unchecked') }))
 }
