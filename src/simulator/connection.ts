@@ -1,0 +1,313 @@
+// One client of the simulated PLC: its requests in order, and its answers through the fault switches onto the wire.
+import type { Effect } from '../codec/codec'
+import { Responder } from '../link/link'
+import type { CommandName } from '../melsec/commands/commands'
+import type { FrameName } from '../melsec/profile'
+import type { MelsecProtocol } from '../melsec/protocol'
+import { ownStation } from '../melsec/route'
+import type { Clock } from '../transport/clock'
+import type { ServerConnection } from '../transport/transport'
+import { type AnyHead, anyFrame } from './any-frame'
+import { routeRefusal } from './check'
+import type { FaultSubject, Faults } from './faults'
+import type { Caller } from './handlers'
+import type { Answer, Plc } from './plc'
+import { Refusal, requestErrors } from './refusal'
+import { type Received, receive } from './request'
+import { Sequence, type Step } from './sequence'
+import type { Counters } from './statistics'
+
+/** A request and what became of it, for programs and logs. */
+export interface RequestEvent {
+  readonly connection: number
+  /** The client, e.g. `127.0.0.1:50231`. */
+  readonly remote: string
+  readonly frame: FrameName
+  /** Name of the command; undefined when it is none that is declared, or its data are wrong. */
+  readonly command: CommandName | undefined
+  readonly effect: Effect | undefined
+  /** The request as decoded. */
+  readonly message: Readonly<Record<string, unknown>> | undefined
+  /** 0 success; undefined when there is no answer. */
+  readonly endCode: number | undefined
+}
+
+/** Answers that the fault `late` holds back. Over UDP one box for the port: the next request may come from another. */
+export type HeldAnswers = { readonly until: 'request' | 'answer'; readonly send: () => void }[]
+
+/** What the connections of one simulated PLC share. */
+export interface Shared {
+  readonly plc: Plc
+  readonly protocol: MelsecProtocol<AnyHead>
+  readonly frames: readonly FrameName[]
+  readonly faults: Faults
+  readonly clock: Clock
+  /** ms from a request to the END processing that answers it, in RUN. */
+  readonly scanTime: number
+  readonly counters: Counters
+  readonly heldDatagrams: HeldAnswers
+  /** Whether the receive buffer of the UDP port takes another request. */
+  readonly roomForDatagram: () => boolean
+  readonly observe: (event: RequestEvent) => void
+}
+
+interface Work extends FaultSubject {
+  readonly received: Received
+  /** Its answer is on the wire: too late to take it back. */
+  sending: boolean
+}
+
+const NOTHING: readonly Step[] = []
+/** ms for bytes to arrive before a reset, which would lose them. */
+const ARRIVAL = 5
+
+export class Connection {
+  /** Milliseconds since 1970. */
+  readonly since: number
+  readonly #shared: Shared
+  readonly #peer: ServerConnection
+  readonly #caller: Caller
+  readonly #responder: Responder<AnyHead>
+  readonly #sequence: Sequence<Work>
+  readonly #held: HeldAnswers
+  #merging: Buffer[] = []
+  #requests = 0
+
+  constructor(
+    shared: Shared,
+    peer: ServerConnection,
+    readonly kind: 'stream' | 'datagram',
+    owner: string,
+    /** Number within this PLC, counting from 1. */
+    readonly id: number,
+  ) {
+    this.#shared = shared
+    this.#peer = peer
+    this.#caller = { owner, monitored: undefined }
+    this.since = shared.clock.time()
+    const framing = anyFrame(shared.frames, shared.protocol.code, (bytes) => this.#unreadable(bytes))
+    this.#responder = new Responder(framing, kind, () => undefined)
+    this.#sequence = new Sequence(shared.clock)
+    this.#held = kind === 'datagram' ? shared.heldDatagrams : []
+    peer.onReceived = (bytes) => this.#receive(bytes)
+  }
+
+  get remote(): string {
+    return this.#peer.remote
+  }
+
+  /** Requests so far. */
+  get requests(): number {
+    return this.#requests
+  }
+
+  /** Requests that wait for their answers. */
+  get pending(): number {
+    return this.#sequence.size
+  }
+
+  /** After the connection has ended, or to end it. */
+  end(how?: 'close' | 'reset'): void {
+    this.#sequence.close()
+    if (this.kind === 'stream') this.#held.length = 0
+    if (how === 'close') this.#peer.close()
+    if (how === 'reset') this.#peer.reset()
+  }
+
+  #receive(bytes: Buffer): void {
+    this.#shared.counters.bytesReceived += bytes.length
+    for (const frame of this.#responder.receive(bytes)) this.#arrive(receive(this.#shared.protocol, frame))
+  }
+
+  /** Another frame or data code: only the PLC's own error log tells (FX5 communication manual 47.4, C06F). */
+  #unreadable(bytes: Buffer): void {
+    this.#shared.counters.unreadable++
+    const shown = bytes.subarray(0, 16).toString('hex').toUpperCase()
+    this.#log(requestErrors.dataCode, `bytes of another frame or data code: ${shown}`)
+  }
+
+  #log(endCode: number, message: string): void {
+    this.#shared.plc.errors.add({ time: this.#shared.clock.time(), endCode, remote: this.remote, message })
+  }
+
+  #arrive(received: Received): void {
+    const { faults, counters, plc } = this.#shared
+    const { request, subcommand } = received
+    const command = request instanceof Refusal ? undefined : request.name
+    const work: Work = { received, command, subcommand, connection: this.id, remote: this.remote, sending: false }
+    this.#requests++
+    counters.requests++
+    counters.discarded += this.#sequence.drop((older) => !older.sending && faults.take('coalesce', older) !== undefined)
+    if (faults.take('silence', work) !== undefined) return
+    if (this.kind === 'datagram' && !this.#shared.roomForDatagram()) {
+      counters.discarded++
+      return
+    }
+    const scan = plc.cpu.state === 'RUN' ? this.#shared.scanTime : 0
+    const wait = Math.max(scan, faults.peek('coalesce', work)?.window ?? 0)
+    this.#sequence.push(work, [{ act: () => this.#begin(work, wait) }])
+  }
+
+  #begin(work: Work, wait: number): readonly Step[] {
+    const answer: Step = { act: () => this.#answer(work) }
+    const late = this.#held.splice(0)
+    for (const { until, send } of late) if (until === 'request') send()
+    const after = late.filter(({ until }) => until === 'answer').map(({ send }) => acting(send))
+    return [{ wait }, answer, ...after]
+  }
+
+  #answer(work: Work): readonly Step[] {
+    const { faults, plc, protocol, counters } = this.#shared
+    const { received } = work
+    const forced = faults.take('endCode', work)
+    const answer: Answer =
+      forced === undefined
+        ? plc.answer(protocol, received, this.#caller)
+        : { kind: 'refused', endCode: forced.endCode, message: 'fault switch' }
+    this.#observe(received, answer)
+    if (answer.kind === 'none') return NOTHING
+    if (answer.kind === 'data') return this.#deliver(this.#frame(work, 0, answer.body), work)
+    counters.refusals++
+    this.#log(answer.endCode, answer.message)
+    return this.#deliver(this.#frame(work, answer.endCode, this.#errorInformation(work)), work)
+  }
+
+  #observe({ frame, request }: Received, answer: Answer): void {
+    const read = request instanceof Refusal ? undefined : request
+    this.#shared.observe({
+      connection: this.id,
+      remote: this.remote,
+      frame: frame.head.frame,
+      command: read?.name,
+      effect: read?.command.effect,
+      message: read?.message,
+      endCode: answer.kind === 'none' ? undefined : answer.kind === 'data' ? 0 : answer.endCode,
+    })
+  }
+
+  /** The station that refuses is this one, whichever was asked. */
+  #errorInformation(work: Work): Buffer {
+    const { protocol, plc, faults } = this.#shared
+    const { frame, command, subcommand } = work.received
+    const { route } = frame.head.head
+    const station = routeRefusal(plc.profile, route) === undefined ? route : ownStation
+    const body = protocol.writeErrorInformation({ ...station, command, subcommand })
+    const short = faults.take('shortError', work)
+    return short === undefined ? body : body.subarray(0, short.bytes)
+  }
+
+  #frame(work: Work, endCode: number, body: Buffer): Buffer {
+    const { faults } = this.#shared
+    let { frame } = work.received
+    if (frame.serial !== undefined) {
+      const wrong = faults.take('wrongSerial', work)
+      if (wrong !== undefined) frame = { ...frame, serial: (frame.serial + wrong.add) & 0xffff }
+    }
+    const elsewhere = faults.take('wrongRoute', work)
+    if (elsewhere !== undefined) {
+      const { head } = frame.head
+      frame = { ...frame, head: { ...frame.head, head: { ...head, route: { ...head.route, ...elsewhere } } } }
+    }
+    return this.#responder.answer(frame, endCode, body)
+  }
+
+  #deliver(answer: Buffer, work: Work): readonly Step[] {
+    const { faults } = this.#shared
+    this.#shared.counters.answers++
+    if (faults.none && this.#merging.length === 0) {
+      this.#send(answer)
+      return NOTHING
+    }
+    if (faults.take('drop', work) !== undefined) return NOTHING
+    const pieces = this.#withGarbage(this.#copies(answer, work), work)
+    const late = faults.take('late', work)
+    if (late !== undefined) {
+      const send = () => {
+        for (const piece of pieces) this.#send(piece)
+      }
+      this.#held.push({ until: late.until, send })
+      return NOTHING
+    }
+    const merged = this.#merge(pieces, work)
+    const delay = faults.take('delay', work)
+    const sending = { act: () => this.#sending(merged, work) }
+    return merged.length === 0 ? NOTHING : [{ wait: delay?.ms ?? 0 }, sending]
+  }
+
+  #copies(answer: Buffer, work: Work): Buffer[] {
+    const duplicate = this.#shared.faults.take('duplicate', work)
+    return new Array<Buffer>(1 + (duplicate?.copies ?? 0)).fill(answer)
+  }
+
+  #withGarbage(pieces: Buffer[], work: Work): Buffer[] {
+    const garbage = this.#shared.faults.take('garbage', work)
+    if (garbage === undefined) return pieces
+    // Never the subheader of an answer in either code.
+    const bytes = Buffer.alloc(garbage.bytes, Buffer.from([0xff, 0x00, 0xa5, 0x5a]))
+    if (garbage.place === 'instead') return [bytes]
+    const all = garbage.place === 'before' ? [bytes, ...pieces] : [...pieces, bytes]
+    return this.kind === 'datagram' ? all : [Buffer.concat(all)]
+  }
+
+  /** Holds a single answer until there is another one to merge it with. */
+  #merge(pieces: readonly Buffer[], work: Work): readonly Buffer[] {
+    const merge = this.#shared.faults.take('merge', work) !== undefined
+    if (!merge && this.#merging.length === 0) return pieces
+    const all = [...this.#merging, ...pieces]
+    this.#merging = merge && all.length < 2 ? all : []
+    return this.#merging.length > 0 ? [] : [Buffer.concat(all)]
+  }
+
+  #sending(pieces: readonly Buffer[], work: Work): readonly Step[] {
+    const { faults } = this.#shared
+    work.sending = true
+    const [first = Buffer.alloc(0), ...rest] = pieces
+    const end = faults.take('disconnect', work)
+    if (end !== undefined) return [this.#step(first.subarray(0, end.at)), { wait: ARRIVAL }, this.#ending(end.how)]
+    const cut = faults.take('cut', work)
+    if (cut !== undefined) return [this.#step(first.subarray(0, cut.at))]
+    const split = faults.take('split', work)
+    if (split !== undefined) {
+      const halves = [first.subarray(0, split.at), first.subarray(split.at)]
+      return this.#spaced([...halves, ...rest], split.pause)
+    }
+    const dribble = faults.take('dribble', work)
+    if (dribble !== undefined)
+      return this.#spaced(
+        pieces.flatMap((piece) => drops(piece, dribble.size)),
+        dribble.pause,
+      )
+    return pieces.map((piece) => this.#step(piece))
+  }
+
+  #spaced(pieces: readonly Buffer[], pause: number): readonly Step[] {
+    return pieces.flatMap((piece, i) => [...(i === 0 ? [] : [{ wait: pause }]), this.#step(piece)])
+  }
+
+  #step(bytes: Buffer): Step {
+    return acting(() => this.#send(bytes))
+  }
+
+  #ending(how: 'close' | 'reset'): Step {
+    return acting(() => this.end(how))
+  }
+
+  #send(bytes: Buffer): void {
+    if (bytes.length === 0) return
+    this.#shared.counters.bytesSent += bytes.length
+    this.#peer.send(bytes)
+  }
+}
+
+function acting(act: () => void): Step {
+  return {
+    act() {
+      act()
+      return NOTHING
+    },
+  }
+}
+
+function drops(piece: Buffer, size: number): Buffer[] {
+  return Array.from({ length: Math.ceil(piece.length / size) }, (_, i) => piece.subarray(i * size, (i + 1) * size))
+}

@@ -1,0 +1,117 @@
+// Every way a simulated PLC can misbehave, as one table: the switches, the command line and the documentation read it.
+
+interface NumberParameter {
+  readonly title: string
+  readonly min: number
+  readonly max?: number
+  /** Without it the parameter must be given. */
+  readonly default?: number
+}
+interface ChoiceParameter {
+  readonly title: string
+  readonly oneOf: readonly string[]
+  readonly default: string
+}
+export type FaultParameter = NumberParameter | ChoiceParameter
+
+interface FaultRow {
+  readonly title: string
+  readonly parameters: Readonly<Record<string, FaultParameter>>
+}
+
+const pause = { title: 'ms between the pieces', min: 0, default: 5 } as const
+const how = { title: 'FIN, or RST that loses what is under way', oneOf: ['close', 'reset'], default: 'reset' } as const
+
+/** `times` and the commands a fault is for are in `FaultAim`. On UDP a piece is a datagram. */
+export const faultKinds = {
+  silence: { title: 'The request is lost: not carried out, not answered', parameters: {} },
+  drop: { title: 'The answer is lost: carried out, not answered', parameters: {} },
+  delay: {
+    title: 'Carried out at once, answered later; answers behind it on the connection wait',
+    parameters: { ms: { title: 'ms', min: 0 } },
+  },
+  late: {
+    title: 'The answer is held back until another request comes',
+    parameters: {
+      until: {
+        title: 'sent before or after the answer to that request',
+        oneOf: ['request', 'answer'],
+        default: 'request',
+      },
+    },
+  },
+  duplicate: {
+    title: 'The answer is sent more than once',
+    parameters: { copies: { title: 'extra ones', min: 1, default: 1 } },
+  },
+  merge: { title: 'Two answers (or an answer and its duplicate) arrive in one piece', parameters: {} },
+  split: {
+    title: 'The answer arrives in two pieces',
+    parameters: { at: { title: 'bytes of the first piece', min: 1 }, pause },
+  },
+  dribble: {
+    title: 'The answer arrives in small pieces',
+    parameters: { size: { title: 'bytes of a piece', min: 1, default: 1 }, pause: { ...pause, default: 1 } },
+  },
+  cut: {
+    title: 'The rest of the answer never arrives',
+    parameters: { at: { title: 'bytes that arrive', min: 1 } },
+  },
+  disconnect: {
+    title: 'The connection ends within the answer',
+    parameters: { at: { title: 'bytes that arrive before', min: 0, default: 0 }, how },
+  },
+  garbage: {
+    title: 'Bytes that belong to no frame',
+    parameters: {
+      bytes: { title: 'how many', min: 1, default: 8 },
+      place: { title: 'where', oneOf: ['before', 'after', 'instead'], default: 'before' },
+    },
+  },
+  wrongSerial: {
+    title: 'The answer has another serial number (4E only)',
+    parameters: { add: { title: 'added to the serial number', min: 1, max: 0xffff, default: 1 } },
+  },
+  wrongRoute: {
+    title: 'The answer comes from another station',
+    parameters: {
+      network: { title: 'network', min: 0, max: 255, default: 1 },
+      station: { title: 'station', min: 0, max: 255, default: 2 },
+    },
+  },
+  endCode: {
+    title: 'Not carried out, refused',
+    parameters: { endCode: { title: 'end code', min: 1, max: 0xffff } },
+  },
+  shortError: {
+    title: 'Refusals carry less than the whole error information',
+    parameters: { bytes: { title: 'bytes of it that are left', min: 0, default: 0 } },
+  },
+  coalesce: {
+    title:
+      'Of requests that arrive together, or while one is waiting, only the last is carried out and answered (FX5U)',
+    parameters: { window: { title: 'ms a request waits for the next one', min: 1, default: 5 } },
+  },
+  closeOnAccept: {
+    title: 'A connection is accepted and ended at once, as when all entries are taken',
+    parameters: { how: { ...how, default: 'close' } },
+  },
+} as const satisfies Readonly<Record<string, FaultRow>>
+
+type Kinds = typeof faultKinds
+export type FaultKind = keyof Kinds
+
+type ValueOfParameter<P> = P extends { readonly oneOf: readonly (infer T)[] } ? T : number
+type Parameters<K extends FaultKind> = Kinds[K]['parameters']
+type OptionalName<P> = { [N in keyof P]: P[N] extends { readonly default: unknown } ? N : never }[keyof P]
+type Given<P> = { readonly [N in Exclude<keyof P, OptionalName<P>>]: ValueOfParameter<P[N]> } & {
+  readonly [N in OptionalName<P>]?: ValueOfParameter<P[N]>
+}
+
+/** A fault of one kind with its parameters, as it is switched on. */
+export type FaultAction = { [K in FaultKind]: { readonly kind: K } & Given<Parameters<K>> }[FaultKind]
+
+/** The parameters of a kind with every default filled in. */
+export type FaultSettings<K extends FaultKind> = {
+  readonly [N in keyof Parameters<K>]: ValueOfParameter<Parameters<K>[N]>
+}

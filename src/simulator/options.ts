@@ -1,0 +1,172 @@
+// What a simulated PLC is made of: options, their defaults and their checks.
+import type { DataCode } from '../codec/codec'
+import { RequestError } from '../errors'
+import { type DeviceName, findDevice } from '../melsec/device'
+import { modelOf } from '../melsec/model-code'
+import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
+import { type Clock, realClock } from '../transport/clock'
+import type { Call } from './handlers'
+import type { ExtensionMemory } from './memory'
+
+/** A port that listens. */
+export interface PortOptions {
+  /** 0 (default): any free port. */
+  readonly port?: number
+}
+
+export interface PlcSimulatorOptions {
+  /** Default `iq-r`. */
+  readonly profile?: ProfileId | Profile
+  readonly profileOverrides?: ProfileOverrides
+  /** Communication data code of the port. The other one is answered by silence. Default `binary`. */
+  readonly code?: DataCode
+  /** Frames the port takes, told apart by their subheaders. Default: all of the profile. */
+  readonly frames?: readonly FrameName[]
+  /** ASCII code on a family with octal X and Y: the port's setting. Default `octal` there. */
+  readonly asciiXy?: 'octal' | 'hexadecimal'
+  /** ASCII code: digits of ZR. Default `decimal`. */
+  readonly asciiZr?: 'decimal' | 'hexadecimal'
+  /** Address to listen on. Default 127.0.0.1, so that nothing is offered to a network unasked. */
+  readonly host?: string
+  /** `false`: no TCP. Default: any free port. */
+  readonly tcp?: PortOptions | false
+  /** `false`: no UDP. Default: any free port. */
+  readonly udp?: PortOptions | false
+  /** What Read Type Name answers. Default: a usual CPU of the family. `name` has at most 16 ASCII characters. */
+  readonly model?: { readonly name: string; readonly code: number }
+  /**
+   * Connections (TCP, or streams in memory) at the same time; a further one is accepted and ended at once, as a PLC
+   * does whose entries are all taken. Default 16, iQ-F 8.
+   */
+  readonly maxConnections?: number
+  /** ms for which an entry stays taken after its connection has ended. Default 0. */
+  readonly entryRelease?: number
+  /** Requests for other stations: an end code, or nothing. Default `refuse`. */
+  readonly otherStations?: 'refuse' | 'silence'
+  /** CPU parameter "Remote Reset". Default false, as in a new project of GX Works. */
+  readonly resetAllowed?: boolean
+  /** ms during which a PLC that starts again answers nobody. Default 1000. */
+  readonly restartTime?: number
+  /** ms from a request to its answer while the CPU is in RUN (END processing). Default 0: at once. */
+  readonly scanTime?: number
+  /** Who counts as the same external device in remote control: all clients of one computer, or one connection. Default `host`. */
+  readonly remoteOwner?: 'host' | 'connection'
+  /** Devices that keep their values when the PLC starts again. Default L, R and ZR. */
+  readonly latch?: readonly DeviceName[]
+  /** Buffer memory and link direct devices. Default: none. */
+  readonly extensions?: ExtensionMemory
+  readonly clock?: Clock
+}
+
+/** The options with every default filled in. */
+export interface Settings {
+  readonly profile: Profile
+  readonly code: DataCode
+  readonly frames: readonly FrameName[]
+  readonly asciiXy: 'octal' | 'hexadecimal'
+  readonly asciiZr: 'decimal' | 'hexadecimal'
+  readonly host: string
+  readonly tcp: PortOptions | false
+  readonly udp: PortOptions | false
+  readonly model: Call['model']
+  readonly maxConnections: number
+  readonly entryRelease: number
+  readonly otherStations: 'refuse' | 'silence'
+  readonly resetAllowed: boolean
+  readonly restartTime: number
+  readonly scanTime: number
+  readonly remoteOwner: 'host' | 'connection'
+  readonly latch: readonly DeviceName[]
+  readonly extensions: ExtensionMemory
+  readonly clock: Clock
+}
+
+/** R08CPU, FX5U-32MR/ES, Q03UDVCPU, L02CPU. */
+const MODEL_CODES: Readonly<Record<ProfileId, number>> = {
+  'iq-r': 0x4801,
+  'iq-f': 0x4a21,
+  q: 0x0366,
+  l: 0x0541,
+  generic: 0x4801,
+}
+
+/** FX5 communication manual 6.2: 8 connections of the CPU module. The others background: open settings 1 to 16. */
+const CONNECTIONS = { 'iq-f': 8, other: 16 } as const
+
+const MODEL_LENGTH = 16
+
+/** @throws RequestError BAD_OPTION */
+export function settingsOf(options: PlcSimulatorOptions): Settings {
+  const profile = resolveProfile(options.profile ?? 'iq-r', options.profileOverrides)
+  const settings: Settings = {
+    profile,
+    code: oneOf('code', options.code ?? 'binary', profile.codes),
+    frames: framesOf(profile, options.frames),
+    asciiXy: oneOf('asciiXy', options.asciiXy ?? (profile.xyRadix === 8 ? 'octal' : 'hexadecimal'), [
+      'octal',
+      'hexadecimal',
+    ]),
+    asciiZr: oneOf('asciiZr', options.asciiZr ?? 'decimal', ['decimal', 'hexadecimal']),
+    host: options.host ?? '127.0.0.1',
+    tcp: options.tcp ?? {},
+    udp: options.udp ?? {},
+    model: modelFor(profile.id, options.model),
+    maxConnections: whole(
+      'maxConnections',
+      options.maxConnections ?? CONNECTIONS[profile.id === 'iq-f' ? 'iq-f' : 'other'],
+      1,
+    ),
+    entryRelease: milliseconds('entryRelease', options.entryRelease ?? 0),
+    otherStations: oneOf('otherStations', options.otherStations ?? 'refuse', ['refuse', 'silence']),
+    resetAllowed: options.resetAllowed ?? false,
+    restartTime: milliseconds('restartTime', options.restartTime ?? 1000),
+    scanTime: milliseconds('scanTime', options.scanTime ?? 0),
+    remoteOwner: oneOf('remoteOwner', options.remoteOwner ?? 'host', ['host', 'connection']),
+    latch: latchOf(options.latch ?? ['L', 'R', 'ZR']),
+    extensions: options.extensions ?? {},
+    clock: options.clock ?? realClock,
+  }
+  for (const name of Object.keys(options)) {
+    if (name in settings || name === 'profileOverrides') continue
+    bad(name, `A simulator has no option ${name}: it has ${Object.keys(settings).join(', ')}, profileOverrides.`)
+  }
+  return settings
+}
+
+function framesOf(profile: Profile, frames: readonly FrameName[] = profile.frames): readonly FrameName[] {
+  if (frames.length === 0) bad('frames', 'A port takes at least one frame.')
+  return frames.map((frame) => oneOf('frames', frame, profile.frames))
+}
+
+function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['model'] {
+  const code = given?.code ?? MODEL_CODES[id]
+  const name = given?.name ?? modelOf(code)?.models[0] ?? ''
+  if (!/^[\x20-\x7e]+$/.test(name) || name.length > MODEL_LENGTH) {
+    bad('model.name', `A model name has 1 to ${MODEL_LENGTH} ASCII characters, unlike ${JSON.stringify(name)}.`)
+  }
+  return { model: name.padEnd(MODEL_LENGTH), modelCode: whole('model.code', code, 0, 0xffff) }
+}
+
+function latchOf(names: readonly DeviceName[]): readonly DeviceName[] {
+  for (const name of names) if (findDevice(name) === undefined) bad('latch', `There is no device ${String(name)}.`)
+  return names
+}
+
+function oneOf<T extends string>(field: string, value: T, allowed: readonly T[]): T {
+  if (allowed.includes(value)) return value
+  return bad(field, `${field} is ${allowed.join(' or ')} here, not ${String(value)}.`)
+}
+
+function whole(field: string, value: number, min: number, max = Number.MAX_SAFE_INTEGER): number {
+  if (Number.isInteger(value) && value >= min && value <= max) return value
+  return bad(field, `${field} is a whole number from ${min}, not ${String(value)}.`)
+}
+
+function milliseconds(field: string, value: number): number {
+  if (Number.isFinite(value) && value >= 0) return value
+  return bad(field, `${field} is a number of milliseconds from 0, not ${String(value)}.`)
+}
+
+function bad(field: string, message: string): never {
+  throw new RequestError('BAD_OPTION', message, field)
+}

@@ -1,0 +1,115 @@
+// The PLC behind the wire: what it answers to a request, without frames, connections or time.
+import type { CommandName } from '../melsec/commands/commands'
+import type { DeviceName } from '../melsec/device'
+import type { Profile } from '../melsec/profile'
+import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
+import type { AnyHead } from './any-frame'
+import { checkRequest, routeRefusal } from './check'
+import { Cpu, type StateChange } from './cpu'
+import { ErrorLog } from './error-log'
+import { type Call, type Caller, type Handler, handlers } from './handlers'
+import { DeviceMemory, type ExtensionMemory } from './memory'
+import { ProgramMemory } from './program-memory'
+import { Refusal } from './refusal'
+import type { Received } from './request'
+
+/** The answer to a request: response data, an end code, or nothing at all. */
+export type Answer =
+  | { readonly kind: 'data'; readonly body: Buffer }
+  | { readonly kind: 'refused'; readonly endCode: number; readonly message: string }
+  | { readonly kind: 'none' }
+
+export interface PlcParts {
+  readonly profile: Profile
+  readonly model: Call['model']
+  readonly latch: readonly DeviceName[]
+  readonly extensions: ExtensionMemory
+  readonly resetAllowed: boolean
+  readonly otherStations: 'refuse' | 'silence'
+  readonly changed: (change: StateChange) => void
+  /** Devices were set to 0 by remote control. */
+  readonly cleared: (scope: 'unlatched' | 'all') => void
+  readonly restart: () => void
+}
+
+export class Plc {
+  readonly profile: Profile
+  readonly memory: ProgramMemory
+  readonly cpu: Cpu
+  readonly errors = new ErrorLog()
+  readonly #otherStations: PlcParts['otherStations']
+  readonly #devices: DeviceMemory
+  readonly #call: Omit<Call, 'caller'>
+
+  constructor(parts: PlcParts) {
+    this.#otherStations = parts.otherStations
+    this.profile = parts.profile
+    this.#devices = new DeviceMemory(parts.profile, parts.latch, parts.extensions)
+    this.memory = new ProgramMemory(this.#devices, parts.profile)
+    this.cpu = new Cpu({
+      profile: parts.profile,
+      resetAllowed: parts.resetAllowed,
+      changed: (change) => {
+        this.#refreshSystemDevices()
+        parts.changed(change)
+      },
+      clear: (scope) => {
+        this.#devices.clear(scope)
+        parts.cleared(scope)
+      },
+    })
+    const { profile, cpu, errors } = this
+    this.#call = { profile, cpu, errors, memory: this.#devices, model: parts.model, restart: parts.restart }
+    this.#refreshSystemDevices()
+  }
+
+  /** Carries a request out. */
+  answer(protocol: MelsecProtocol<AnyHead>, { frame, request }: Received, caller: Caller): Answer {
+    try {
+      const wrongRoute = routeRefusal(this.profile, frame.head.head.route)
+      if (wrongRoute !== undefined) {
+        if (this.#otherStations === 'silence') return { kind: 'none' }
+        throw wrongRoute
+      }
+      if (request instanceof Refusal) throw request
+      checkRequest(this.profile, protocol.code, request)
+      // What clients write to the system's devices does not stay there.
+      this.#refreshSystemDevices()
+      return this.#carryOut(protocol, request, caller)
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error
+      return { kind: 'refused', endCode: error.endCode, message: error.message }
+    }
+  }
+
+  /** Power goes off: everything that is not latched is lost. */
+  down(): void {
+    this.cpu.down()
+    this.#devices.clear('unlatched')
+    this.errors.clear()
+  }
+
+  up(): void {
+    this.cpu.up()
+  }
+
+  #carryOut(protocol: MelsecProtocol<AnyHead>, request: ReceivedRequest, caller: Caller): Answer {
+    const { name, command } = request
+    const response = this.#handle(name, request.message, caller)
+    if (command.answered === 'no') return { kind: 'none' }
+    const context = command.context === undefined ? request.message : (caller.monitored ?? {})
+    return { kind: 'data', body: protocol.writeResponse(request, response, context) }
+  }
+
+  #handle<N extends CommandName>(name: N, message: ReceivedRequest['message'], caller: Caller) {
+    const handler: Handler<N> = handlers[name]
+    // The message was decoded by this command's declaration, from which its type is inferred.
+    return handler(message as Parameters<Handler<N>>[0], { ...this.#call, caller })
+  }
+
+  /** SD203: state of the CPU. SM400 and SM401: always on, always off. */
+  #refreshSystemDevices(): void {
+    this.#devices.writeWords({ device: 'SD', number: 203 }, [this.cpu.statusWord])
+    this.#devices.writeBits({ device: 'SM', number: 400 }, [true, false])
+  }
+}

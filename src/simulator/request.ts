@@ -1,0 +1,122 @@
+// A request as it arrived: which command it is, what it says, or why it cannot be read.
+import { decode, type Reader, readerOf, type Shape, type ValueCodec } from '../codec/codec'
+import { PlcError } from '../errors'
+import type { RequestFrame } from '../link/link'
+import type { Command } from '../melsec/command'
+import { type CommandName, commands } from '../melsec/commands/commands'
+import { deviceAddress } from '../melsec/device-codec'
+import { FORM_BITS, readSubcommand } from '../melsec/form'
+import { limitsOf } from '../melsec/limit'
+import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
+import { setReset } from '../melsec/set-reset'
+import type { AnyHead } from './any-frame'
+import { Refusal, requestErrors } from './refusal'
+
+/** A frame and what was understood of it. */
+export interface Received {
+  readonly frame: RequestFrame<AnyHead>
+  /** Command and subcommand as sent; 0 when the frame is too short for them. */
+  readonly command: number
+  readonly subcommand: number
+  /** The request, or why there is none. */
+  readonly request: ReceivedRequest | Refusal
+}
+
+/** Reads a frame; never throws for what a client can send. */
+export function receive(protocol: MelsecProtocol<AnyHead>, frame: RequestFrame<AnyHead>): Received {
+  const { command, subcommand } = codesOf(protocol, frame.body)
+  return { frame, command, subcommand, request: requestOf(protocol, frame, command, subcommand) }
+}
+
+function codesOf(protocol: MelsecProtocol<AnyHead>, body: Buffer): { command: number; subcommand: number } {
+  const reader = readerOf(protocol.code, body)
+  try {
+    return { command: reader.uint(2), subcommand: reader.uint(2) }
+  } catch (error) {
+    if (error instanceof PlcError) return { command: 0, subcommand: 0 }
+    throw error
+  }
+}
+
+function requestOf(
+  protocol: MelsecProtocol<AnyHead>,
+  frame: RequestFrame<AnyHead>,
+  code: number,
+  subcommand: number,
+): ReceivedRequest | Refusal {
+  try {
+    const read = protocol.readRequest(frame)
+    if (!('unknown' in read)) return read
+    return new Refusal(protocol.profile.refusals.command, 'no such command or subcommand')
+  } catch (error) {
+    if (!(error instanceof PlcError)) throw error
+    return new Refusal(endCodeOf(protocol, frame.body, code, subcommand, error), error.message)
+  }
+}
+
+/** The end code for a request whose data are not what its command says. */
+function endCodeOf(
+  protocol: MelsecProtocol<AnyHead>,
+  body: Buffer,
+  code: number,
+  subcommand: number,
+  error: PlcError,
+): number {
+  const { refusals } = protocol.profile
+  if (error.code === 'BAD_DIGIT') return requestErrors.asciiConversion
+  if (error.code === 'TRUNCATED' || error.code === 'TRAILING') return refusals.length
+  const found = commandOf(code, subcommand)
+  if (found === undefined) return requestErrors.content
+  const reader = readerOf(protocol.code, body.subarray(protocol.code === 'ascii' ? 8 : 4), FORM_BITS[found.form])
+  const culprit = culpritOf(found.command.request, reader)
+  if (culprit === deviceAddress) return refusals.deviceName
+  if (culprit === setReset) return requestErrors.bitData
+  // The other fields of commands that have limits are points and counts: here one of them is 0.
+  const [limit] = limitsOf(protocol.profile, found.command.name as CommandName, found.form, protocol.code)
+  return limit?.endCode ?? requestErrors.content
+}
+
+function commandOf(code: number, subcommand: number) {
+  const device = readSubcommand(subcommand)
+  const command = Object.values<Command>(commands).find(
+    (candidate) => candidate.code === code && (candidate.unit === 'none' || candidate.unit === device?.unit),
+  )
+  return command === undefined ? undefined : { command, form: device?.form ?? 'short' }
+}
+
+/** The value codec that cannot read its field, if it is one of them. */
+function culpritOf(shape: Shape, reader: Reader): unknown {
+  let culprit: unknown
+  const watched = watch(shape, (codec) => {
+    culprit ??= codec
+  })
+  try {
+    decode(watched, reader)
+  } catch (error) {
+    if (!(error instanceof PlcError)) throw error
+  }
+  return culprit
+}
+
+/** The same shape; `failed` is told which codec cannot read. */
+function watch(shape: Shape, failed: (codec: unknown) => void): Shape {
+  const entries = Object.entries(shape).map(([name, field]): [string, Shape[string]] => {
+    if (field.kind === 'list') return [name, { ...field, item: watch(field.item, failed) }]
+    return field.kind === 'value' ? [name, { ...field, codec: watchCodec(field.codec, failed) }] : [name, field]
+  })
+  return Object.fromEntries(entries)
+}
+
+function watchCodec(codec: ValueCodec<unknown>, failed: (codec: unknown) => void): ValueCodec<unknown> {
+  return {
+    ...codec,
+    read(reader) {
+      try {
+        return codec.read(reader)
+      } catch (error) {
+        failed(codec)
+        throw error
+      }
+    },
+  }
+}

@@ -1,0 +1,373 @@
+// A simulated PLC that listens: on TCP, on UDP and in memory.
+import { ClosedError } from '../errors'
+import type { CommandName } from '../melsec/commands/commands'
+import type { Profile } from '../melsec/profile'
+import { MelsecProtocol } from '../melsec/protocol'
+import { ownStation } from '../melsec/route'
+import type { Clock } from '../transport/clock'
+import { listenTcp } from '../transport/listen-tcp'
+import { listenUdp } from '../transport/listen-udp'
+import { listenMemory, type MemoryListener, type MemoryOptions } from '../transport/memory'
+import type { Listener, OpenTransport, ServerConnection } from '../transport/transport'
+import type { PlcValue, ValueFormat } from '../value/value'
+import { anyFrame } from './any-frame'
+import { Connection, type RequestEvent, type Shared } from './connection'
+import type { Cpu, StateChange } from './cpu'
+import type { ErrorLog } from './error-log'
+import { Emitter } from './events'
+import { type FaultSubject, Faults } from './faults'
+import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
+import { Plc } from './plc'
+import type { ProgramMemory } from './program-memory'
+import { newCounters, type SimulatorStatistics } from './statistics'
+
+export type { PlcSimulatorOptions } from './options'
+
+/** Where a port listens. */
+export interface Endpoint {
+  readonly host: string
+  readonly port: number
+}
+
+/** A client at the moment. */
+export interface ConnectionInfo {
+  /** Counting from 1. */
+  readonly id: number
+  readonly kind: 'stream' | 'datagram'
+  /** Address and port, or the name given to `connect()`. */
+  readonly remote: string
+  /** Milliseconds since 1970. */
+  readonly since: number
+  readonly requests: number
+}
+
+/** A write that was carried out. */
+export type WriteEvent = RequestEvent & { readonly command: CommandName }
+
+export interface SimulatorEvents {
+  /** RUN, STOP or PAUSE. */
+  state: StateChange
+  /** Remote control has set devices to 0: those that are not latched, or all. Initial values are the program's to set. */
+  clear: { readonly scope: 'unlatched' | 'all' }
+  /** A client has written devices. */
+  write: WriteEvent
+  /** Every request, with its end code. */
+  request: RequestEvent
+  /** A client has come or gone. */
+  connection: { readonly change: 'opened' | 'closed' | 'turnedAway'; readonly connection: ConnectionInfo }
+  /** Power is on again after a reset or `restart()`: devices that are not latched are 0. */
+  restart: { readonly time: number }
+  /** `close()` was called. */
+  close: { readonly time: number }
+}
+
+export interface ConnectOptions extends Pick<MemoryOptions, 'kind' | 'chunking'> {
+  /** As sockets (default), or before `send` returns. */
+  readonly delivery?: 'microtask' | 'synchronous'
+  /** Who this is in remote control. Default: every call of `connect()` is another device. */
+  readonly device?: string
+}
+
+export interface PlcSimulator {
+  readonly profile: Profile
+  readonly clock: Clock
+  /** Device memory as a program in the PLC sees it. */
+  readonly memory: ProgramMemory
+  /** State, switch, and who holds it remotely. */
+  readonly cpu: Cpu
+  readonly faults: Faults
+  /** The error LED of the port and what lit it. */
+  readonly errors: ErrorLog
+  /** Where TCP listens; undefined before `listen()`, after `close()`, and without TCP. */
+  readonly tcp: Endpoint | undefined
+  /** Where UDP listens. */
+  readonly udp: Endpoint | undefined
+  readonly connections: readonly ConnectionInfo[]
+  readonly statistics: SimulatorStatistics
+  /** @throws ConnectionError PORT_UNAVAILABLE; then nothing listens. */
+  listen(): Promise<void>
+  /**
+   * Transports to this PLC inside the same program, without sockets.
+   * @example createMelsecClient({ ..., openTransport: plc.connect() })
+   */
+  connect(options?: ConnectOptions): OpenTransport
+  /** As a reset or a power failure: everybody is disconnected, and nobody answered, for the given or usual time. */
+  restart(ms?: number): void
+  /** `memory.read`: `plc.read('D100:REAL')` */
+  read(item: string, format?: ValueFormat): PlcValue
+  /** `memory.write`: `plc.write('D100:REAL', 1.5)` */
+  write(item: string, value: PlcValue, format?: ValueFormat): void
+  /** Calls `listener` on every event; the returned function ends it. */
+  on<E extends keyof SimulatorEvents>(event: E, listener: (event: SimulatorEvents[E]) => void): () => void
+  /** Ends everything; no socket or timer is left when it resolves. */
+  close(): Promise<void>
+}
+
+/**
+ * A simulated PLC, answering by the same declarations and profiles the client asks by.
+ * @throws RequestError BAD_OPTION
+ * @example
+ * const plc = createPlcSimulator({ profile: 'iq-f', tcp: { port: 5007 } })
+ * await plc.listen()
+ * plc.write('D100:REAL', 1.5)
+ */
+export function createPlcSimulator(options: PlcSimulatorOptions = {}): PlcSimulator {
+  return new Simulator(settingsOf(options))
+}
+
+class Simulator implements PlcSimulator {
+  readonly profile: Profile
+  readonly clock: Clock
+  readonly memory: ProgramMemory
+  readonly cpu: Cpu
+  readonly faults = new Faults()
+  readonly errors: ErrorLog
+  readonly #settings: Settings
+  readonly #shared: Shared
+  readonly #plc: Plc
+  readonly #events = new Emitter<SimulatorEvents>()
+  readonly #counters = newCounters()
+  readonly #connections = new Map<ServerConnection, Connection>()
+  readonly #memoryListeners = new Set<MemoryListener>()
+  readonly #timers = new Set<() => void>()
+  /** Entries that are not yet free again after their connections have ended. */
+  #releasing = 0
+  #connects = 0
+  #down = false
+  #closed = false
+  #tcp: Listener | undefined
+  #udp: Listener | undefined
+  #listening: Promise<void> | undefined
+  #closing: Promise<void> | undefined
+
+  constructor(settings: Settings) {
+    const { profile, clock, model, latch, extensions, resetAllowed, otherStations } = settings
+    this.#settings = settings
+    this.profile = profile
+    this.clock = clock
+    this.#plc = new Plc({
+      profile,
+      model,
+      latch,
+      extensions,
+      resetAllowed,
+      otherStations,
+      changed: (change) => this.#events.emit('state', change),
+      cleared: (scope) => this.#events.emit('clear', { scope }),
+      restart: () => this.restart(),
+    })
+    this.memory = this.#plc.memory
+    this.cpu = this.#plc.cpu
+    this.errors = this.#plc.errors
+    this.#shared = this.#share()
+  }
+
+  get tcp(): Endpoint | undefined {
+    return endpoint(this.#tcp)
+  }
+
+  get udp(): Endpoint | undefined {
+    return endpoint(this.#udp)
+  }
+
+  get connections(): readonly ConnectionInfo[] {
+    return [...this.#connections.values()].map(info)
+  }
+
+  get statistics(): SimulatorStatistics {
+    return { ...this.#counters }
+  }
+
+  listen(): Promise<void> {
+    this.#listening ??= this.#listen()
+    return this.#listening
+  }
+
+  connect(options: ConnectOptions = {}): OpenTransport {
+    const { kind = 'stream', device = `device ${++this.#connects}`, ...rest } = options
+    this.#refuseClosed()
+    const listener = listenMemory({ kind, ...rest }, (peer) => this.#accept(peer, kind, device))
+    this.#memoryListeners.add(listener)
+    return listener.open
+  }
+
+  restart(ms: number = this.#settings.restartTime): void {
+    if (this.#down || this.#closed) return
+    this.#down = true
+    for (const connection of this.#connections.values()) connection.end('reset')
+    this.#shared.heldDatagrams.length = 0
+    this.#plc.down()
+    this.#after(ms, () => {
+      this.#down = false
+      this.#plc.up()
+      this.#events.emit('restart', { time: this.clock.time() })
+    })
+  }
+
+  read(item: string, format?: ValueFormat): PlcValue {
+    return this.memory.read(item, format)
+  }
+
+  write(item: string, value: PlcValue, format?: ValueFormat): void {
+    this.memory.write(item, value, format)
+  }
+
+  on<E extends keyof SimulatorEvents>(event: E, listener: (event: SimulatorEvents[E]) => void): () => void {
+    return this.#events.on(event, listener)
+  }
+
+  close(): Promise<void> {
+    if (this.#closing === undefined) {
+      this.#closed = true
+      this.#closing = this.#close()
+      this.#events.emit('close', { time: this.clock.time() })
+    }
+    return this.#closing
+  }
+
+  #share(): Shared {
+    const { profile, clock, code, frames, asciiXy, asciiZr, scanTime } = this.#settings
+    const protocol = new MelsecProtocol({
+      framing: anyFrame(frames, code, () => {}),
+      // The head of requests; a PLC sends none.
+      head: { frame: profile.frame, head: { route: ownStation, timer: 0 } },
+      profile,
+      code,
+      asciiXy,
+      asciiZr,
+    })
+    return {
+      plc: this.#plc,
+      protocol,
+      frames,
+      faults: this.faults,
+      clock,
+      scanTime,
+      counters: this.#counters,
+      heldDatagrams: [],
+      roomForDatagram: () => this.#pendingDatagrams() <= profile.inFlight.udpBuffer,
+      observe: (event) => this.#observe(event),
+    }
+  }
+
+  /** SLMP reference manual 3.3, FX5 communication manual 6.5: what comes while the buffer is full is thrown away. */
+  #pendingDatagrams(): number {
+    let pending = 0
+    for (const { kind, pending: own } of this.#connections.values()) if (kind === 'datagram') pending += own
+    return pending
+  }
+
+  #observe(event: RequestEvent): void {
+    const { command } = event
+    if (command !== undefined && event.effect === 'write' && event.endCode === 0) {
+      this.#events.emit('write', { ...event, command })
+    }
+    this.#events.emit('request', event)
+  }
+
+  async #listen(): Promise<void> {
+    this.#refuseClosed()
+    const { host, tcp, udp, clock } = this.#settings
+    try {
+      if (tcp !== false) this.#tcp = await listenTcp({ host, ...tcp }, (peer) => this.#acceptSocket(peer, 'stream'))
+      if (udp !== false)
+        this.#udp = await listenUdp({ host, clock, ...udp }, (peer) => this.#acceptSocket(peer, 'datagram'))
+    } catch (error) {
+      await this.#closeListeners()
+      this.#listening = undefined
+      throw error
+    }
+    if (this.#closed) await this.#closeListeners()
+  }
+
+  #acceptSocket(peer: ServerConnection, kind: 'stream' | 'datagram'): void {
+    const { remote } = peer
+    this.#accept(peer, kind, this.#settings.remoteOwner === 'host' ? remote.slice(0, remote.lastIndexOf(':')) : remote)
+  }
+
+  #accept(peer: ServerConnection, kind: 'stream' | 'datagram', owner: string): void {
+    if (this.#down || this.#closed) {
+      // A PLC that starts again has no connections to end in an orderly way; datagrams just get lost.
+      peer.reset()
+      return
+    }
+    const connection = new Connection(this.#shared, peer, kind, owner, ++this.#counters.connections)
+    const turnAway = kind === 'stream' ? this.#turnAway(connection) : undefined
+    if (turnAway !== undefined) {
+      this.#counters.turnedAway++
+      connection.end(turnAway)
+      this.#events.emit('connection', { change: 'turnedAway', connection: info(connection) })
+      return
+    }
+    this.#connections.set(peer, connection)
+    peer.onClosed = () => this.#gone(peer, connection)
+    this.#events.emit('connection', { change: 'opened', connection: info(connection) })
+  }
+
+  /** How a connection ends before it begins, if it does. */
+  #turnAway(connection: Connection): 'close' | 'reset' | undefined {
+    const subject: FaultSubject = {
+      command: undefined,
+      subcommand: 0,
+      connection: connection.id,
+      remote: connection.remote,
+    }
+    const fault = this.faults.take('closeOnAccept', subject)
+    if (fault !== undefined) return fault.how
+    let taken = this.#releasing
+    for (const { kind } of this.#connections.values()) if (kind === 'stream') taken++
+    return taken >= this.#settings.maxConnections ? 'close' : undefined
+  }
+
+  #gone(peer: ServerConnection, connection: Connection): void {
+    connection.end()
+    this.#connections.delete(peer)
+    if (connection.kind === 'stream' && this.#settings.entryRelease > 0 && !this.#down) {
+      this.#releasing++
+      this.#after(this.#settings.entryRelease, () => {
+        this.#releasing--
+      })
+    }
+    this.#events.emit('connection', { change: 'closed', connection: info(connection) })
+  }
+
+  #after(ms: number, run: () => void): void {
+    const cancel = this.clock.timer(
+      ms,
+      () => {
+        this.#timers.delete(cancel)
+        run()
+      },
+      { unref: true },
+    )
+    this.#timers.add(cancel)
+  }
+
+  async #close(): Promise<void> {
+    for (const cancel of this.#timers) cancel()
+    this.#timers.clear()
+    for (const connection of this.#connections.values()) connection.end('close')
+    for (const listener of this.#memoryListeners) listener.close()
+    await this.#listening?.catch(() => {})
+    await this.#closeListeners()
+  }
+
+  async #closeListeners(): Promise<void> {
+    const listeners = [this.#tcp, this.#udp]
+    this.#tcp = undefined
+    this.#udp = undefined
+    await Promise.all(listeners.map((listener) => listener?.close()))
+  }
+
+  #refuseClosed(): void {
+    if (this.#closed) throw new ClosedError('CLOSED', 'This simulator is closed: make another one.')
+  }
+}
+
+function info({ id, kind, remote, since, requests }: Connection): ConnectionInfo {
+  return { id, kind, remote, since, requests }
+}
+
+function endpoint(listener: Listener | undefined): Endpoint | undefined {
+  return listener === undefined ? undefined : { host: listener.address, port: listener.port }
+}

@@ -1,0 +1,29 @@
+// The public names of this room.
+export type { RequestEvent } from './connection'
+export type { Cpu, CpuState, Hold, StateChange, SwitchPosition } from './cpu'
+export type { ErrorLog, LoggedError } from './error-log'
+export { type FaultKind, type FaultParameter, faultKinds } from './fault-kinds'
+export type { ActiveFault, Fault, FaultAim, FaultSubject, Faults } from './faults'
+export type { ExtensionMemory } from './memory'
+export type { PlcSimulatorOptions, PortOptions } from './options'
+export {
+  type DemoPlant,
+  type DemoPlantOptions,
+  demoPlantTags,
+  type PlantTag,
+  type PlantTagName,
+  type PlantVariant,
+  plantVariantOf,
+  startDemoPlant,
+} from './plant'
+export type { ProgramMemory } from './program-memory'
+export {
+  type ConnectionInfo,
+  type ConnectOptions,
+  createPlcSimulator,
+  type Endpoint,
+  type PlcSimulator,
+  type SimulatorEvents,
+  type WriteEvent,
+} from './server'
+export type { SimulatorStatistics } from './statistics'

@@ -1,0 +1,173 @@
+import { describe, expect, test } from '@jest/globals'
+import { type CommandName, commands } from '../../src/melsec/commands/commands'
+import { modelOf } from '../../src/melsec/model-code'
+import { type FrameName, lackOf, type Profile, profileIds, profiles } from '../../src/melsec/profile'
+import { type Joined, join } from './support'
+
+const M100 = { device: 'M', number: 100 } as const
+const D10 = { device: 'D', number: 10 } as const
+const D20 = { device: 'D', number: 20 } as const
+
+/** What each command must do, seen from the wire and from the program. */
+const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
+  readBits({ plc, asker }) {
+    plc.memory.setBit('M', 100, true)
+    plc.memory.setBit('M', 102, true)
+    expect(asker.ask(commands.readBits, { head: M100, points: 3 })).toEqual({ values: [true, false, true] })
+  },
+  readWords({ plc, asker }) {
+    plc.memory.setWord('D', 10, 0x1234)
+    plc.memory.setWord('D', 11, 0xfedc)
+    expect(asker.ask(commands.readWords, { head: D10, points: 3 })).toEqual({ values: [0x1234, 0xfedc, 0] })
+  },
+  writeBits({ plc, asker }) {
+    plc.memory.setBit('M', 101, true)
+    plc.memory.setBit('M', 103, true)
+    expect(asker.ask(commands.writeBits, { head: M100, values: [true, false, true] })).toEqual({})
+    expect([100, 101, 102, 103].map((number) => plc.memory.bit('M', number))).toEqual([true, false, true, true])
+  },
+  writeWords({ plc, asker }) {
+    plc.memory.setWord('D', 12, 7)
+    expect(asker.ask(commands.writeWords, { head: D10, values: [1, 0xffff] })).toEqual({})
+    expect([10, 11, 12].map((number) => plc.memory.word('D', number))).toEqual([1, 0xffff, 7])
+  },
+  readRandom({ plc, asker }) {
+    plc.memory.setWord('D', 10, 5)
+    plc.memory.set('D20', 'DINT', -2)
+    plc.memory.setBit('M', 100, true)
+    const words = [{ device: D10 }, { device: M100 }]
+    expect(asker.ask(commands.readRandom, { words, doubleWords: [{ device: D20 }] })).toEqual({
+      words: [5, 1],
+      doubleWords: [0xfffffffe],
+    })
+  },
+  writeRandomBits({ plc, asker }) {
+    plc.memory.setBit('Y', 16, true)
+    const bits = [
+      { device: M100, value: true },
+      { device: { device: 'Y', number: 16 }, value: false },
+    ] as const
+    expect(asker.ask(commands.writeRandomBits, { bits })).toEqual({})
+    expect([plc.memory.bit('M', 100), plc.memory.bit('Y', 16)]).toEqual([true, false])
+  },
+  writeRandomWords({ plc, asker }) {
+    const words = [{ device: D10, value: 9 }]
+    const doubleWords = [{ device: D20, value: 0x89abcdef }]
+    expect(asker.ask(commands.writeRandomWords, { words, doubleWords })).toEqual({})
+    expect([plc.memory.word('D', 10), plc.memory.get('D20', 'UDINT')]).toEqual([9, 0x89abcdef])
+  },
+  readBlock({ plc, asker }) {
+    plc.memory.setWord('D', 11, 3)
+    plc.memory.setBit('M', 117, true)
+    const request = { wordBlocks: [{ head: D10, points: 2 }], bitBlocks: [{ head: M100, points: 2 }] }
+    expect(asker.ask(commands.readBlock, request)).toEqual({ wordBlocks: [[0, 3]], bitBlocks: [[0, 2]] })
+  },
+  writeBlock({ plc, asker }) {
+    const request = { wordBlocks: [{ head: D10, values: [4, 5] }], bitBlocks: [{ head: M100, values: [0x8001] }] }
+    expect(asker.ask(commands.writeBlock, request)).toEqual({})
+    expect([plc.memory.word('D', 11), plc.memory.word('M', 100)]).toEqual([5, 0x8001])
+  },
+  entryMonitorDevice({ asker }) {
+    expect(asker.ask(commands.entryMonitorDevice, { words: [{ device: D10 }], doubleWords: [] })).toEqual({})
+  },
+  executeMonitor({ plc, asker }) {
+    const context = { words: [{ device: D10 }], doubleWords: [{ device: D20 }] }
+    asker.ask(commands.entryMonitorDevice, context)
+    plc.memory.setWord('D', 10, 77)
+    plc.memory.set('D20', 'DINT', 88)
+    expect(asker.ask(commands.executeMonitor, {}, { context })).toEqual({ words: [77], doubleWords: [88] })
+  },
+  readTypeName({ plc, asker }) {
+    const answer = asker.ask(commands.readTypeName, {})
+    expect(answer?.model).toHaveLength(16)
+    const model = modelOf(answer?.modelCode ?? 0)
+    expect(model?.models).toContain(answer?.model.trimEnd())
+    if (plc.profile.id !== 'generic') expect(model?.profile).toBe(plc.profile.id)
+  },
+  remoteRun({ plc, asker }) {
+    asker.ask(commands.remoteStop, {})
+    expect(asker.ask(commands.remoteRun, { mode: 1 })).toEqual({})
+    expect(plc.cpu.state).toBe('RUN')
+  },
+  remoteStop({ plc, asker }) {
+    expect(asker.ask(commands.remoteStop, {})).toEqual({})
+    expect(plc.cpu.state).toBe('STOP')
+  },
+  remotePause({ plc, asker }) {
+    expect(asker.ask(commands.remotePause, { mode: 1 })).toEqual({})
+    expect(plc.cpu.state).toBe('PAUSE')
+  },
+  remoteLatchClear({ plc, asker }) {
+    plc.memory.setBit('L', 0, true)
+    asker.ask(commands.remoteStop, {})
+    expect(asker.ask(commands.remoteLatchClear, {})).toEqual({})
+    expect(plc.memory.bit('L', 0)).toBe(false)
+  },
+  remoteReset({ plc, clock, asker }) {
+    asker.ask(commands.remoteStop, {})
+    expect(asker.ask(commands.remoteReset, {})).toBeUndefined()
+    expect([plc.cpu.state, asker.closed]).toEqual(['STOP', true])
+    clock.advance(1000)
+    expect(plc.cpu.state).toBe('RUN')
+  },
+  selfTest({ asker }) {
+    expect(asker.ask(commands.selfTest, { data: '0123456789ABCDEF' })).toEqual({ data: '0123456789ABCDEF' })
+  },
+  clearError({ plc, asker }) {
+    asker.endCode(commands.readWords, { head: { device: 'D', number: 999999 }, points: 1 })
+    expect(plc.errors.led).toBe(true)
+    expect(asker.ask(commands.clearError, {})).toEqual({})
+    expect([plc.errors.led, plc.errors.entries]).toEqual([false, []])
+  },
+}
+
+const names = Object.keys(commands).filter((name): name is CommandName => name in commands)
+
+interface Variant {
+  readonly profile: Profile
+  readonly frame: FrameName
+  readonly code: 'binary' | 'ascii'
+}
+const variants: Variant[] = profileIds.flatMap((id) =>
+  profiles[id].frames.flatMap((frame) =>
+    (['binary', 'ascii'] as const).map((code) => ({ profile: profiles[id], frame, code })),
+  ),
+)
+
+describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) => {
+  const joined = () => join({ profile, code, resetAllowed: true }, { frame })
+  const lacking = names.filter((name) => lackOf(profile, name) !== undefined)
+
+  test.each(names.filter((name) => !lacking.includes(name)))('%s', (name) => {
+    scenarios[name](joined())
+  })
+
+  if (lacking.length > 0) {
+    test.each(lacking)('%s is refused: this family lacks it', (name) => {
+      const { asker } = joined()
+      const context = { words: [{ device: D10 }], doubleWords: [] }
+      const endCode =
+        name === 'executeMonitor'
+          ? asker.endCode(commands.executeMonitor, {}, { context })
+          : asker.endCode(commands.entryMonitorDevice, context)
+      expect(endCode).toBe(lackOf(profile, name)?.endCode)
+    })
+  }
+})
+
+describe('both frames on one connection', () => {
+  test('each request is answered in its own frame', () => {
+    const { plc } = join()
+    const chunks: string[] = []
+    const transport = plc.connect({ delivery: 'synchronous' })()
+    transport.open({ opened: () => {}, received: (bytes) => void chunks.push(bytes.toString('hex')), closed: () => {} })
+    plc.memory.setWord('D', 0, 0x1234)
+    const body = '0c00100001040000000000a80100'
+    const ask3e = Buffer.from(`500000ffff0300${body}`, 'hex')
+    const ask4e = Buffer.from(`54003412000000ffff0300${body}`, 'hex')
+    for (const bytes of [ask3e, ask4e, ask4e, ask3e]) transport.send(bytes)
+    const answer3e = 'd00000ffff0300040000003412'
+    const answer4e = 'd4003412000000ffff0300040000003412'
+    expect(chunks).toEqual([answer3e, answer4e, answer4e, answer3e])
+  })
+})
