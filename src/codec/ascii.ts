@@ -1,5 +1,5 @@
 import type { Reader, Width, Writer } from './cursor'
-import { failAt, Input, Output, refuse } from './cursor'
+import { failAt, Input, Output, refuseElement } from './cursor'
 
 export const DIGITS = Buffer.from('0123456789ABCDEF', 'latin1')
 
@@ -27,7 +27,7 @@ export class AsciiWriter extends Output implements Writer {
     const buffer = this.buffer
     for (let i = 0; i < values.length; i++, at += 4) {
       const word = values[i] as number
-      if ((word & 0xffff) !== word) refuse(`element ${i} is ${word}; a word is 0 to 65535`)
+      if (typeof word !== 'number' || (word & 0xffff) !== word) refuseElement(i, word, 'a word is 0 to 65535')
       buffer[at] = DIGITS[word >>> 12] as number
       buffer[at + 1] = DIGITS[(word >>> 8) & 15] as number
       buffer[at + 2] = DIGITS[(word >>> 4) & 15] as number
@@ -38,7 +38,8 @@ export class AsciiWriter extends Output implements Writer {
   doubleWords(values: ArrayLike<number>): void {
     for (let i = 0; i < values.length; i++) {
       const value = values[i] as number
-      if (value >>> 0 !== value) refuse(`element ${i} is ${value}; a double word is 0 to 4294967295`)
+      if (typeof value !== 'number' || value >>> 0 !== value)
+        refuseElement(i, value, 'a double word is 0 to 4294967295')
       this.uint(value, 4)
     }
   }
@@ -52,7 +53,7 @@ export class AsciiWriter extends Output implements Writer {
   bytes(values: ArrayLike<number>): void {
     for (let i = 0; i < values.length; i++) {
       const byte = values[i] as number
-      if ((byte & 0xff) !== byte) refuse(`element ${i} is ${byte}; a byte is 0 to 255`)
+      if (typeof byte !== 'number' || (byte & 0xff) !== byte) refuseElement(i, byte, 'a byte is 0 to 255')
       this.uint(byte, 1)
     }
   }
@@ -93,6 +94,8 @@ export class AsciiReader extends Input implements Reader {
   }
 
   doubleWords(count: number): number[] {
+    // Before the array is made: a wrong count must not cost memory.
+    if (count * 8 > this.remaining) this.need(count * 8)
     const values = new Array<number>(count)
     for (let i = 0; i < count; i++) values[i] = this.uint(4)
     return values

@@ -1,5 +1,5 @@
 import type { Reader, Width, Writer } from './cursor'
-import { failAt, Input, Output, refuse } from './cursor'
+import { failAt, Input, Output, refuseElement } from './cursor'
 
 /** Binary code: numbers low byte first, bits as nibbles. */
 export class BinaryWriter extends Output implements Writer {
@@ -17,7 +17,7 @@ export class BinaryWriter extends Output implements Writer {
     const buffer = this.buffer
     for (let i = 0; i < values.length; i++) {
       const word = values[i] as number
-      if ((word & 0xffff) !== word) refuse(`element ${i} is ${word}; a word is 0 to 65535`)
+      if (typeof word !== 'number' || (word & 0xffff) !== word) refuseElement(i, word, 'a word is 0 to 65535')
       buffer[at++] = word
       buffer[at++] = word >>> 8
     }
@@ -28,7 +28,8 @@ export class BinaryWriter extends Output implements Writer {
     const buffer = this.buffer
     for (let i = 0; i < values.length; i++) {
       const value = values[i] as number
-      if (value >>> 0 !== value) refuse(`element ${i} is ${value}; a double word is 0 to 4294967295`)
+      if (typeof value !== 'number' || value >>> 0 !== value)
+        refuseElement(i, value, 'a double word is 0 to 4294967295')
       buffer[at++] = value
       buffer[at++] = value >>> 8
       buffer[at++] = value >>> 16
@@ -50,7 +51,7 @@ export class BinaryWriter extends Output implements Writer {
     const buffer = this.buffer
     for (let i = 0; i < values.length; i++) {
       const byte = values[i] as number
-      if ((byte & 0xff) !== byte) refuse(`element ${i} is ${byte}; a byte is 0 to 255`)
+      if (typeof byte !== 'number' || (byte & 0xff) !== byte) refuseElement(i, byte, 'a byte is 0 to 255')
       buffer[at++] = byte
     }
   }

@@ -1,8 +1,10 @@
-import type { Count, Field, Shape } from './field'
+import type { BulkField, Count, CountField, Field, IntegerField, Shape } from './field'
+import { WIDTH } from './field'
 
 /**
- * Checks at load that every name a declaration refers to exists, so that a typing mistake in a declaration is found
- * by the first test that imports it and not by a customer's PLC. `asked` is the request the response refers to.
+ * Checks at load that every name a declaration refers to exists and says what it must, so that a typing mistake in a
+ * declaration is found by the first test that imports it and not by a customer's PLC.
+ * `asked` is the request the response refers to.
  * @throws TypeError naming the command and the field.
  */
 export function checkShapes(title: string, request: Shape, response: Shape, asked: Shape = request): void {
@@ -12,32 +14,113 @@ export function checkShapes(title: string, request: Shape, response: Shape, aske
 
 function checkShape(title: string, shape: Shape, request: Shape | undefined): void {
   for (const [name, field] of Object.entries(shape)) {
-    for (const problem of problems(field, shape, request)) throw new TypeError(`${title}: ${name} ${problem}`)
-    if (field.kind === 'list') checkShape(`${title}.${name}`, { ...field.item }, request ?? shape)
+    const problem = problemOf(name, field, shape, request)
+    if (problem !== undefined) throw new TypeError(`${title}: ${name} ${problem}`)
+    if (field.kind === 'list') checkShape(`${title}.${name}`, field.item, request)
   }
 }
 
-function problems(field: Field, shape: Shape, request: Shape | undefined): string[] {
+function problemOf(name: string, field: Field, shape: Shape, request: Shape | undefined): string | undefined {
   switch (field.kind) {
+    case 'u8':
+    case 'u16':
+    case 'u32':
+      return integerProblem(field)
+    case 'fixed':
+      return field.value >= 0 && field.value <= last(field.width) ? undefined : 'is fixed to what its width cannot hold'
     case 'count':
-      return field.of in shape ? [] : [`counts ${field.of}, which is not beside it`]
+      return boundsProblem(field, field.width) ?? derivedProblem(name, field, shape)
     case 'echo':
-      return request !== undefined && field.of in request ? [] : [`repeats ${field.of}, which the request lacks`]
+      return echoProblem(fieldIn(request, field.of), field.of)
     case 'each':
-      return request?.[field.of]?.kind === 'list' ? [] : [`goes over ${field.of}, which is no list of the request`]
+      return eachProblem(field.of, field.item, fieldIn(request, field.of))
     case 'words':
     case 'doubleWords':
     case 'bits':
     case 'bytes':
     case 'text':
     case 'list':
-      return countProblems(field.count, shape, request)
+      return countProblem(name, field.count, shape, request)
+    case 'value':
+      return undefined
     default:
-      return []
+      return field satisfies never
   }
 }
 
-function countProblems(count: Count, shape: Shape, request: Shape | undefined): string[] {
-  if (typeof count === 'number' || count in shape || (request !== undefined && count in request)) return []
-  return [`is counted by ${count}, which neither this message nor the request has`]
+function fieldIn(shape: Shape | undefined, name: string): Field | undefined {
+  return shape !== undefined && Object.hasOwn(shape, name) ? shape[name] : undefined
+}
+
+function last(width: number): number {
+  return 2 ** (8 * width) - 1
+}
+
+function integerProblem(field: IntegerField): string | undefined {
+  const problem = boundsProblem(field, WIDTH[field.kind])
+  if (problem !== undefined) return problem
+  const { min = 0, max = last(WIDTH[field.kind]), oneOf } = field
+  const allowed = (number: number) => number >= min && number <= max && oneOf?.includes(number) !== false
+  if (oneOf?.every(allowed) === false) return 'has numbers in oneOf that its range excludes'
+  if (field.default !== undefined && !allowed(field.default))
+    return `has the default ${field.default}, which it refuses`
+  return undefined
+}
+
+/** `zeroMeans` stands for one number only: 0 itself must not be possible, and nothing else may be too wide. */
+function boundsProblem({ min = 0, max, zeroMeans }: IntegerField | CountField, width: number): string | undefined {
+  const highest = max ?? last(width)
+  if (min < 0 || min > highest) return `has the range ${min} to ${highest}`
+  if (zeroMeans !== undefined && (min === 0 || zeroMeans < min || zeroMeans > highest)) {
+    return `writes ${zeroMeans} as 0, which is possible itself or the other is not`
+  }
+  const widest = zeroMeans === highest ? highest - 1 : highest
+  return widest > last(width) ? `goes up to ${highest}, which its width cannot hold` : undefined
+}
+
+/** A derived count and what it counts must name each other, and the count must come first. */
+function derivedProblem(name: string, { of }: CountField, shape: Shape): string | undefined {
+  const counted = fieldIn(shape, of)
+  if (counted === undefined) return `counts ${of}, which is not beside it`
+  if (!('count' in counted) || counted.count !== name) return `counts ${of}, which is not counted by it`
+  return isBefore(shape, name, of) ? undefined : `counts ${of}, which stands in front of it`
+}
+
+function echoProblem(repeated: Field | undefined, of: string): string | undefined {
+  if (repeated === undefined) return `repeats ${of}, which the request lacks`
+  return isNumber(repeated) || repeated.kind === 'value' ? undefined : `repeats ${of}, which is no single value`
+}
+
+function eachProblem(of: string, item: BulkField, list: Field | undefined): string | undefined {
+  if (list?.kind !== 'list') return `goes over ${of}, which is no list of the request`
+  const { count } = item
+  if (typeof count === 'number' || isCountable(fieldIn(list.item, count))) return undefined
+  return `is counted by ${count}, which an element of ${of} lacks`
+}
+
+function countProblem(name: string, count: Count, shape: Shape, request: Shape | undefined): string | undefined {
+  if (typeof count === 'number') return undefined
+  const beside = count === name ? undefined : fieldIn(shape, count)
+  // What is repeated of the request is not in the message: the request's own is meant.
+  const here = beside?.kind === 'echo' ? undefined : beside
+  if (here === undefined) {
+    if (isCountable(fieldIn(request, count))) return undefined
+    return `is counted by ${count}, which neither this message nor the request has`
+  }
+  if (!isCountable(here)) return `is counted by ${count}, which is no number`
+  return isBefore(shape, count, name) ? undefined : `is counted by ${count}, which stands behind it`
+}
+
+function isBefore(shape: Shape, first: string, second: string): boolean {
+  const names = Object.keys(shape)
+  return names.indexOf(first) < names.indexOf(second)
+}
+
+function isNumber(field: Field): boolean {
+  return field.kind in WIDTH || field.kind === 'count'
+}
+
+/** A number, or something whose length is one. */
+function isCountable(field: Field | undefined): boolean {
+  return field !== undefined && (isNumber(field) || 'count' in field)
 }

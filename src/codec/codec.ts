@@ -9,5 +9,6 @@ export { type Declaration, declare, type Effect, type Named } from './declaratio
 export { describe, type FieldDescription } from './describe'
 export type { Field, MessageInput, MessageOf, Shape } from './field'
 export * as field from './field'
-export { type Context, decode, encode, type Measured, measure } from './layout'
+export { type Context, decode, encode } from './layout'
+export { type Measured, measure } from './measure'
 export { putUint, uintAt } from './uint'

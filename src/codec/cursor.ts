@@ -148,3 +148,8 @@ export function failAt(code: ProtocolErrorCode, offset: number, bytes: Buffer, m
 export function refuse(message: string): never {
   throw new RequestError('BAD_MESSAGE', message)
 }
+
+/** Throws the `RequestError` for an element of a bulk field; it may be of any type, BigInt and text included. */
+export function refuseElement(i: number, found: unknown, expected: string): never {
+  return refuse(`element ${i} is ${typeof found === 'number' ? found : `a ${typeof found}`}; ${expected}`)
+}

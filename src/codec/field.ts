@@ -25,6 +25,9 @@ export interface IntegerField extends Documented, Bounded {
   /** The only numbers that may stand here. */
   readonly oneOf?: readonly number[]
 }
+/** Bytes of an integer field. */
+export const WIDTH = { u8: 1, u16: 2, u32: 4 } as const satisfies Record<IntegerField['kind'], Width>
+
 /** Written, checked on reading, invisible in the message. */
 export interface FixedField extends Documented {
   readonly kind: 'fixed'
@@ -55,6 +58,8 @@ export interface TextField extends Documented {
   readonly kind: 'text'
   readonly count: Count
   readonly charset?: Charset
+  /** A password: never shown in traces and explanations. */
+  readonly secret?: true
 }
 export interface ListField extends Documented {
   readonly kind: 'list'
@@ -148,8 +153,10 @@ export const bits = <const C extends Count>(count: C, doc?: string) =>
   ({ kind: 'bits', count, ...(doc ? { doc } : {}) }) as const
 export const bytes = <const C extends Count>(count: C, doc?: string) =>
   ({ kind: 'bytes', count, ...(doc ? { doc } : {}) }) as const
-export const text = <const C extends Count>(count: C, options: { doc?: string; charset?: Charset } = {}) =>
-  ({ kind: 'text', count, ...options }) as const
+export const text = <const C extends Count>(
+  count: C,
+  options: { doc?: string; charset?: Charset; secret?: true } = {},
+) => ({ kind: 'text', count, ...options }) as const
 export const list = <const C extends Count, const S extends Shape>(count: C, item: S, doc?: string) =>
   ({ kind: 'list', count, item, ...(doc ? { doc } : {}) }) as const
 export const each = <const N extends string, const F extends BulkField>(of: N, item: F) =>

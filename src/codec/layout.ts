@@ -1,34 +1,61 @@
 // The one place that gives a field its meaning, for both directions and both codes.
 import { RequestError } from '../errors'
-import type { Reader, ValueCodec, Writer } from './cursor'
-import type { BulkField, Charset, Count, Field, IntegerField, MessageInput, MessageOf, Shape } from './field'
+import { asked, type Bag, type Context, countIn, countToRead, isArrayLike } from './count'
+import type { Reader, Writer } from './cursor'
+import {
+  type BulkField,
+  type Charset,
+  type Field,
+  type IntegerField,
+  type MessageInput,
+  type MessageOf,
+  type Shape,
+  WIDTH,
+} from './field'
 
-/** The request a response answers: `echo`, `each` and counts refer to it. */
-export interface Context {
-  readonly shape: Shape
-  readonly message: Readonly<Record<string, unknown>>
-}
-
-type Bag = Record<string, unknown>
-
-const WIDTH = { u8: 1, u16: 2, u32: 4 } as const
+export type { Context } from './count'
 
 /**
  * Writes `message` as `shape` says.
- * @throws RequestError BAD_MESSAGE naming the field, when the message does not fit the shape.
+ * @throws RequestError BAD_MESSAGE naming the field, when the message does not fit the shape. A field that the shape
+ * does not have, or derives by itself, is refused too: a misspelt option would otherwise be dropped without a word.
  */
 export function encode<S extends Shape>(shape: S, message: MessageInput<S>, writer: Writer, context?: Context): void {
-  encodeBag(shape, message as Bag, writer, context)
+  encodeBag(shape, message, writer, context)
 }
 
-function encodeBag(shape: Shape, message: Bag, writer: Writer, context: Context | undefined): void {
+function encodeBag(shape: Shape, given: unknown, writer: Writer, context: Context | undefined): void {
+  const message = bagToWrite(shape, given)
   for (const name in shape) {
     try {
-      put(shape[name] as Field, message[name], message, writer, context)
+      put(shape[name] as Field, name, message[name], message, writer, context)
     } catch (error) {
       throw named(name, error)
     }
   }
+}
+
+function bagToWrite(shape: Shape, given: unknown): Bag {
+  if (typeof given !== 'object' || given === null || Array.isArray(given)) {
+    bad(`must be an object with ${namesOf(shape)}, is ${show(given)}`)
+  }
+  const message = given as Bag
+  for (const name in message) {
+    const field = Object.hasOwn(shape, name) ? shape[name] : undefined
+    if (message[name] === undefined || (field !== undefined && isVisible(field))) continue
+    const reason = field === undefined ? 'is not a field of this message' : 'is filled in by itself'
+    throw named(name, new RequestError('BAD_MESSAGE', `${reason}; it has ${namesOf(shape)}`))
+  }
+  return message
+}
+
+function isVisible({ kind }: Field): boolean {
+  return kind !== 'count' && kind !== 'fixed' && kind !== 'echo'
+}
+
+function namesOf(shape: Shape): string {
+  const names = Object.keys(shape).filter((name) => isVisible(shape[name] as Field))
+  return names.length === 0 ? 'no fields' : names.join(', ')
 }
 
 /** Puts the field's name in front of what is wrong with it, so that nested lists give a path. */
@@ -39,7 +66,14 @@ function named(name: string, error: unknown): unknown {
   return new RequestError(error.code, `${path}: ${reason}`, path)
 }
 
-function put(field: Field, given: unknown, message: Bag, writer: Writer, context: Context | undefined): void {
+function put(
+  field: Field,
+  name: string,
+  given: unknown,
+  message: Bag,
+  writer: Writer,
+  context: Context | undefined,
+): void {
   switch (field.kind) {
     case 'u8':
     case 'u16':
@@ -56,31 +90,27 @@ function put(field: Field, given: unknown, message: Bag, writer: Writer, context
       putEcho(field.of, writer, context)
       return
     case 'value':
-      if (given === undefined) bad('is missing')
+      if (given === undefined || given === null) bad('is missing')
       field.codec.write(writer, given)
       return
     case 'words':
-      writer.words(arrayToWrite(field, given, message, context) as ArrayLike<number>)
+      writer.words(arrayToWrite(field, name, given, message, context) as ArrayLike<number>)
       return
     case 'doubleWords':
-      writer.doubleWords(arrayToWrite(field, given, message, context) as ArrayLike<number>)
+      writer.doubleWords(arrayToWrite(field, name, given, message, context) as ArrayLike<number>)
       return
     case 'bits':
-      writer.bits(booleansToWrite(arrayToWrite(field, given, message, context)))
+      writer.bits(booleansToWrite(arrayToWrite(field, name, given, message, context)))
       return
     case 'bytes':
-      writer.bytes(arrayToWrite(field, given, message, context) as ArrayLike<number>)
+      writer.bytes(arrayToWrite(field, name, given, message, context) as ArrayLike<number>)
       return
     case 'text':
-      writer.text(textToWrite(field, given, message, context))
+      writer.text(textToWrite(field, name, given, message, context))
       return
     case 'list':
-      listToWrite(given).forEach((element, i) => {
-        try {
-          encodeBag(field.item, element, writer, context)
-        } catch (error) {
-          throw named(String(i), error)
-        }
+      eachToWrite(listToWrite(field, name, given, message, context), (element) => {
+        encodeBag(field.item, element, writer, context)
       })
       return
     case 'each':
@@ -93,30 +123,34 @@ function put(field: Field, given: unknown, message: Bag, writer: Writer, context
 
 function putEcho(of: string, writer: Writer, context: Context | undefined): void {
   const { shape, message } = asked(context)
-  put(shape[of] as Field, message[of], message as Bag, writer, undefined)
+  put(shape[of] as Field, of, message[of], message as Bag, writer, undefined)
 }
 
 function putEach(of: string, item: BulkField, given: unknown, writer: Writer, context: Context | undefined): void {
   const elements = asked(context).message[of] as readonly Bag[]
-  const parts = listToWrite(given) as readonly unknown[]
-  if (parts.length !== elements.length)
-    bad(`has ${parts.length} element(s), the request's ${of} has ${elements.length}`)
-  elements.forEach((element, i) => {
-    put(item, parts[i], element, writer, undefined)
-  })
+  if (!Array.isArray(given)) bad(`must be an array, is ${show(given)}`)
+  if (given.length !== elements.length)
+    bad(`has ${given.length} element(s), the request's ${of} has ${elements.length}`)
+  eachToWrite(given as readonly unknown[], (part, i) => put(item, '', part, elements[i] as Bag, writer, undefined))
+}
+
+/** Also goes over the holes of an array, which forEach leaves out: they were counted. */
+function eachToWrite(given: readonly unknown[], write: (element: unknown, i: number) => void): void {
+  for (let i = 0; i < given.length; i++) {
+    try {
+      write(given[i], i)
+    } catch (error) {
+      throw named(String(i), error)
+    }
+  }
 }
 
 function bad(reason: string): never {
   throw new RequestError('BAD_MESSAGE', reason)
 }
 
-function asked(context: Context | undefined): Context {
-  if (context === undefined) throw new TypeError('A response is encoded and decoded with the request it answers')
-  return context
-}
-
 function integerToWrite(field: IntegerField, given: unknown): number {
-  const number = given ?? field.default
+  const number = given === undefined ? field.default : given
   if (typeof number !== 'number' || !Number.isInteger(number)) bad(`must be a whole number, is ${show(given)}`)
   const [min, max] = boundsOf(field)
   if (number < min || number > max) bad(`is ${number}, must be ${min} to ${max}`)
@@ -141,18 +175,15 @@ function lengthOf(given: unknown, name: string): number {
   return bad(`${name} is missing`)
 }
 
-function isArrayLike(given: unknown): given is ArrayLike<unknown> {
-  return Array.isArray(given) || ArrayBuffer.isView(given)
-}
-
 function arrayToWrite(
   field: BulkField,
+  name: string,
   given: unknown,
   message: Bag,
   context: Context | undefined,
 ): ArrayLike<unknown> {
   if (!isArrayLike(given)) bad(`must be an array, is ${show(given)}`)
-  const expected = countIn(field.count, message, context)
+  const expected = countIn(field.count, name, message, context)
   if (expected !== undefined && given.length !== expected) bad(`has ${given.length} element(s), must have ${expected}`)
   return given
 }
@@ -168,12 +199,13 @@ const CHARSETS: Readonly<Record<Exclude<Charset, 'any'>, RegExp>> = { hexDigits:
 
 function textToWrite(
   field: Extract<Field, { kind: 'text' }>,
+  name: string,
   given: unknown,
   message: Bag,
   context: Context | undefined,
 ): string {
   if (typeof given !== 'string') bad(`must be a text, is ${show(given)}`)
-  const expected = countIn(field.count, message, context)
+  const expected = countIn(field.count, name, message, context)
   if (expected !== undefined && given.length !== expected)
     bad(`has ${given.length} character(s), must have ${expected}`)
   if (!inCharset(field.charset, given)) bad('may hold only the characters 0-9 and A-F')
@@ -184,33 +216,26 @@ function inCharset(charset: Charset | undefined, given: string): boolean {
   return charset === undefined || charset === 'any' || CHARSETS[charset].test(given)
 }
 
-function listToWrite(given: unknown): readonly Bag[] {
+function listToWrite(
+  field: Extract<Field, { kind: 'list' }>,
+  name: string,
+  given: unknown,
+  message: Bag,
+  context: Context | undefined,
+): readonly unknown[] {
   if (!Array.isArray(given)) bad(`must be an array, is ${show(given)}`)
-  return given as readonly Bag[]
+  const expected = countIn(field.count, name, message, context)
+  if (expected !== undefined && given.length !== expected) bad(`has ${given.length} element(s), must have ${expected}`)
+  return given
 }
 
 function show(given: unknown): string {
   if (given === undefined) return 'missing'
-  return typeof given === 'string' ? JSON.stringify(given.slice(0, 40)) : String(given)
-}
-
-/**
- * The number a count refers to: a number, or the length of what has the name, in this message or else in the request.
- * `undefined` when neither has it, as for a derived count of the message that is being encoded.
- */
-function countIn(count: Count, message: Bag, context: Context | undefined): number | undefined {
-  if (typeof count === 'number') return count
-  return sizeIn(message[count]) ?? (context === undefined ? undefined : sizeInRequest(count, context))
-}
-
-function sizeIn(found: unknown): number | undefined {
-  if (typeof found === 'number') return found
-  return typeof found === 'string' || isArrayLike(found) ? found.length : undefined
-}
-
-function sizeInRequest(name: string, context: Context): number | undefined {
-  const field = context.shape[name]
-  return sizeIn(context.message[field?.kind === 'count' ? field.of : name])
+  if (typeof given === 'string') return JSON.stringify(given.slice(0, 40))
+  if (typeof given === 'function') return 'a function'
+  // Not String(): objects exist that cannot be turned into text.
+  if (typeof given === 'object' && given !== null) return Array.isArray(given) ? 'an array' : 'an object'
+  return String(given)
 }
 
 /**
@@ -231,7 +256,7 @@ function decodeBag(shape: Shape, reader: Reader, context: Context | undefined): 
       counts[field.of] = readCount(field, reader)
     } else if (field.kind === 'fixed') readFixed(field, name, reader)
     else if (field.kind === 'echo') readEcho(field.of, name, reader, context)
-    else message[name] = get(field, counts?.[name], message, reader, context)
+    else message[name] = get(field, name, counts?.[name], message, reader, context)
   }
   return message
 }
@@ -240,6 +265,7 @@ type Visible = Exclude<Field, { kind: 'count' | 'fixed' | 'echo' }>
 
 function get(
   field: Visible,
+  name: string,
   counted: number | undefined,
   message: Bag,
   reader: Reader,
@@ -253,30 +279,24 @@ function get(
     case 'value':
       return field.codec.read(reader)
     case 'words':
-      return reader.words(counted ?? countToRead(field.count, message, context))
+      return reader.words(counted ?? countToRead(field.count, name, message, context))
     case 'doubleWords':
-      return reader.doubleWords(counted ?? countToRead(field.count, message, context))
+      return reader.doubleWords(counted ?? countToRead(field.count, name, message, context))
     case 'bits':
-      return reader.bits(counted ?? countToRead(field.count, message, context))
+      return reader.bits(counted ?? countToRead(field.count, name, message, context))
     case 'bytes':
-      return reader.bytes(counted ?? countToRead(field.count, message, context))
+      return reader.bytes(counted ?? countToRead(field.count, name, message, context))
     case 'text':
-      return readText(field, counted ?? countToRead(field.count, message, context), reader)
+      return readText(field, counted ?? countToRead(field.count, name, message, context), reader)
     case 'list':
-      return readList(field.item, counted ?? countToRead(field.count, message, context), reader, context)
+      return readList(field.item, counted ?? countToRead(field.count, name, message, context), reader, context)
     case 'each':
       return (asked(context).message[field.of] as readonly Bag[]).map((element) =>
-        get(field.item, undefined, element, reader, undefined),
+        get(field.item, '', undefined, element, reader, undefined),
       )
     default:
       return field satisfies never
   }
-}
-
-function countToRead(count: Count, message: Bag, context: Context | undefined): number {
-  const found = countIn(count, message, context)
-  if (found === undefined) throw new TypeError(`Nothing tells the count ${count}`)
-  return found
 }
 
 function readInteger(field: IntegerField, reader: Reader): number {
@@ -307,14 +327,19 @@ function readEcho(of: string, name: string, reader: Reader, context: Context | u
   const { shape, message } = asked(context)
   const field = shape[of] as Field
   const found =
-    field.kind === 'count' ? readCount(field, reader) : get(field as Visible, undefined, {}, reader, undefined)
-  const sent = field.kind === 'count' ? lengthOf(message[field.of], field.of) : message[of]
-  if (!same(found, sent)) reader.fail('ECHO_MISMATCH', `${name} does not repeat the request`)
+    field.kind === 'count' ? readCount(field, reader) : get(field as Visible, of, undefined, {}, reader, undefined)
+  if (!same(found, sentIn(field, of, message))) reader.fail('ECHO_MISMATCH', `${name} does not repeat the request`)
 }
 
-/** Equality of decoded plain data. A field the caller left at its default compares equal to the decoded default. */
+/** What the request said, also where it said it by leaving the field out. */
+function sentIn(field: Field, name: string, message: Readonly<Bag>): unknown {
+  if (field.kind === 'count') return lengthOf(message[field.of], field.of)
+  return message[name] ?? ('default' in field ? field.default : undefined)
+}
+
+/** Equality of plain data. */
 function same(a: unknown, b: unknown): boolean {
-  if (Object.is(a, b)) return true
+  if (a === b) return true
   if (typeof a !== 'object' || typeof b !== 'object' || a === null || b === null) return false
   const names = new Set([...Object.keys(a), ...Object.keys(b)])
   for (const name of names) if (!same((a as Bag)[name], (b as Bag)[name])) return false
@@ -331,79 +356,4 @@ function readList(item: Shape, count: number, reader: Reader, context: Context |
   const elements: Bag[] = []
   for (let i = 0; i < count; i++) elements.push(decodeBag(item, reader, context))
   return elements
-}
-
-/** What is known of a message when its size is asked for. */
-export interface Measured {
-  readonly ascii: boolean
-  readonly form: number
-  /** The message itself, when it is known (a request that is sent, a response that was built). */
-  readonly message?: Readonly<Record<string, unknown>>
-  /** The request, when a response is measured. */
-  readonly context?: Context
-}
-
-/**
- * Bytes a message of `shape` takes, without encoding it.
- * Frames without a length (1E, Sharp JW) need this to know where an answer ends.
- */
-export function measure(shape: Shape, known: Measured): number {
-  let total = 0
-  for (const name in shape) total += span(shape[name] as Field, name, known)
-  return total
-}
-
-function span(field: Field, name: string, known: Measured): number {
-  const digits = known.ascii ? 2 : 1
-  const own = known.message?.[name]
-  const count = (of: Count) => sizeIn(own) ?? countToRead(of, (known.message ?? {}) as Bag, known.context)
-  switch (field.kind) {
-    case 'u8':
-    case 'u16':
-    case 'u32':
-      return WIDTH[field.kind] * digits
-    case 'fixed':
-    case 'count':
-      return field.width * digits
-    case 'echo':
-      return spanOfEcho(field.of, known)
-    case 'value':
-      return (field.codec as ValueCodec<unknown>).size(known.ascii, known.form, own)
-    case 'words':
-    case 'doubleWords':
-    case 'bits':
-    case 'bytes':
-      return bulkSize(field.kind, count(field.count), known.ascii)
-    case 'text':
-      return count(field.count)
-    case 'list':
-      return spanOfList(field.item, own, count(field.count), known)
-    case 'each':
-      return (asked(known.context).message[field.of] as readonly Bag[]).reduce(
-        (total, element) =>
-          total + bulkSize(field.item.kind, countToRead(field.item.count, element, undefined), known.ascii),
-        0,
-      )
-    default:
-      return field satisfies never
-  }
-}
-
-function spanOfEcho(of: string, known: Measured): number {
-  const { shape, message } = asked(known.context)
-  return span(shape[of] as Field, of, { ascii: known.ascii, form: known.form, message })
-}
-
-function spanOfList(item: Shape, own: unknown, count: number, known: Measured): number {
-  const { message: _, ...rest } = known
-  if (Array.isArray(own)) {
-    return (own as readonly Bag[]).reduce((total, element) => total + measure(item, { ...rest, message: element }), 0)
-  }
-  return count * measure(item, rest)
-}
-
-function bulkSize(kind: BulkField['kind'], count: number, ascii: boolean): number {
-  if (kind === 'bits') return ascii ? count : (count + 1) >> 1
-  const bytes = { words: 2, doubleWords: 4, bytes: 1 }[kind] * count
-  return ascii ? bytes * 2 : bytes
 }

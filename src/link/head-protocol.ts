@@ -52,16 +52,32 @@ export class HeadProtocol<Head> {
     const { code, form } = this.#parts
     const writer = writerOf(code, form)
     encode<C['request']>(command.request, message, writer)
-    const context: Context = { shape: command.request, message }
+    const body = writer.take()
+    // What was sent counts, not an object that the caller may change before the answer comes.
+    const context: Context = { shape: command.request, message: decode(command.request, readerOf(code, body, form)) }
     return {
       title: command.title,
       effect: command.effect,
       head: this.#parts.headOf(command),
-      body: writer.take(),
+      body,
       answered: command.answered !== 'no',
-      responseLength: () => measure(command.response, { ascii: code === 'ascii', form, context }),
+      responseLength: (head) => {
+        this.#checkCommand(command, head)
+        return measure(command.response, { ascii: code === 'ascii', form, context })
+      },
       decode: (frame) => this.#decode(command, context, frame),
     }
+  }
+
+  /** Without a length, an answer to another command would be waited for until it is as long as the right one. */
+  #checkCommand(command: NamedCommand, head: Head): void {
+    const answered = this.#parts.codeOf(head)
+    if (answered === command.code) return
+    const hex = (code: number) => code.toString(16).toUpperCase().padStart(2, '0')
+    throw new ProtocolError(
+      'ECHO_MISMATCH',
+      `The answer is to command ${hex(answered)}H, asked was ${hex(command.code)}H.`,
+    )
   }
 
   #decode<C extends NamedCommand>(command: C, context: Context, frame: ResponseFrame<Head>): MessageOf<C['response']> {

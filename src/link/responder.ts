@@ -1,8 +1,10 @@
 // The PLC's side of one connection, sans-IO: the mirror of the session, used by the simulator.
 import { PlcError } from '../errors'
-import type { BodyLength, Framing, RequestFrame } from './framing'
+import type { BodyLength, Framing, RequestFrame, Scanned } from './framing'
 
 const EMPTY = Buffer.alloc(0)
+/** Longer than any frame of any protocol here. */
+const MAX_FRAME = 65_536
 
 export class Responder<Head> {
   readonly #framing: Framing<Head>
@@ -20,24 +22,39 @@ export class Responder<Head> {
   /**
    * Takes a chunk and returns the requests that are complete with it.
    * Bytes that are no such frame are thrown away and nothing is answered: that is what a PLC does with a wrong data
-   * code or frame (FX5 communication manual, C06F: "no response").
+   * code or frame (FX5 communication manual, C06F: "no response"). One datagram is one frame.
    */
   receive(chunk: Buffer): RequestFrame<Head>[] {
+    return this.#kind === 'datagram' ? this.#receiveDatagram(chunk) : this.#receiveStream(chunk)
+  }
+
+  #receiveDatagram(datagram: Buffer): RequestFrame<Head>[] {
+    const scanned = this.#scan(datagram)
+    return scanned?.used === datagram.length ? [scanned.frame] : []
+  }
+
+  #receiveStream(chunk: Buffer): RequestFrame<Head>[] {
     const requests: RequestFrame<Head>[] = []
     let rest = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
-    try {
-      while (rest.length > 0) {
-        const scanned = this.#framing.request.scan(rest, this.#bodyLength)
-        if (scanned === undefined) break
-        requests.push(scanned.frame)
-        rest = rest.subarray(scanned.used)
-      }
-    } catch (error) {
-      if (!(error instanceof PlcError)) throw error
-      rest = EMPTY
+    while (rest.length > 0) {
+      const scanned = this.#scan(rest)
+      if (scanned === undefined) break
+      if (scanned !== null) requests.push(scanned.frame)
+      rest = scanned === null ? EMPTY : rest.subarray(scanned.used)
     }
-    this.#received = this.#kind === 'datagram' ? EMPTY : rest
+    // A frame that does not end must not fill the memory.
+    this.#received = rest.length > MAX_FRAME ? EMPTY : rest
     return requests
+  }
+
+  /** The request at the front; `undefined` when it is not complete, `null` when the bytes can never become one. */
+  #scan(bytes: Buffer): Scanned<RequestFrame<Head>> | undefined | null {
+    try {
+      return this.#framing.request.scan(bytes, this.#bodyLength)
+    } catch (error) {
+      if (error instanceof PlcError) return null
+      throw error
+    }
   }
 
   /** The frame that answers `request`. */

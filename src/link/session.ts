@@ -4,8 +4,9 @@
 // Without a serial number a late answer would be taken for the next one. So `order` means one request in flight, and
 // after a timeout or an abandoned request the connection is dropped (stream) or the local port is changed (datagram).
 // With datagrams the network may also duplicate, so there the port is changed after every answer.
-import { PlcError, ProtocolError, RequestError } from '../errors'
-import type { Framing, Job, Outcome, ResponseFrame, SessionEvent } from './framing'
+import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
+import type { Framing, Job, Outcome, RequestFrame, ResponseFrame, SessionEvent } from './framing'
+import { SerialNumbers } from './serial-numbers'
 
 /** How the session reads its bytes, and how much may be under way. */
 export interface SessionOptions {
@@ -15,18 +16,26 @@ export interface SessionOptions {
   readonly window: number
   /** Bytes of an unfinished frame that are kept; more is a broken peer. */
   readonly maxFrame?: number
+  /** Of the peer; hand the same one to each of its sessions, so that no number is used again too soon. */
+  readonly serials?: SerialNumbers
 }
 
 interface Pending<J> {
   readonly job: J
   readonly serial: number
+  readonly bytes: Buffer
   readonly sentAt: number
+  /** Handed out by `transmit()`. Until then the PLC cannot have seen it. */
+  sent: boolean
 }
 
+/** What stands at the front of the received bytes. `unasked`: an answer that belongs to no request. */
+type Found<Head> =
+  | { readonly used: number; readonly kind: 'answer'; readonly frame: ResponseFrame<Head> }
+  | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame<Head> }
+  | { readonly used: number; readonly kind: 'unasked' }
+
 const EMPTY = Buffer.alloc(0)
-const SERIALS = 0x10000
-/** Serial numbers of given-up requests that are not used again soon: their answers may still be on the way. */
-const QUARANTINE = 256
 const MAX_FRAME = 65_536
 
 export class Session<Head, J extends Job<Head> = Job<Head>> {
@@ -34,11 +43,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   readonly #options: SessionOptions
   #pending: Pending<J>[] = []
   #waiting: J[] = []
-  #output: Buffer[] = []
+  #output: Pending<J>[] = []
   #events: SessionEvent<Head, J>[] = []
   #received: Buffer = EMPTY
-  #nextSerial = 0
-  #quarantine: number[] = []
+  readonly #serials: SerialNumbers
   /** Set once the connection must go: nothing more is sent or attributed on it. */
   #dropped = false
 
@@ -52,9 +60,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     }
     this.#framing = framing
     this.#options = options
+    this.#serials = options.serials ?? new SerialNumbers()
   }
 
-  /** Requests sent and not answered. */
+  /** Requests sent, or just about to be, and not answered. */
   get inFlight(): number {
     return this.#pending.length
   }
@@ -83,7 +92,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     if (pending === undefined) return undefined
     this.#giveUp([pending], 'a request in flight was abandoned')
     this.#fill(now)
-    return true
+    return pending.sent
   }
 
   receive(chunk: Buffer, now: number): void {
@@ -101,7 +110,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     }
     const late = this.#pending.filter((entry) => entry.job.deadline <= now)
     if (late.length === 0) return
-    for (const { job, sentAt } of late) this.#finish(job, { kind: 'timedOut', sent: true }, sentAt)
+    for (const { job, sentAt, sent } of late) this.#finish(job, { kind: 'timedOut', sent }, sentAt)
     this.#giveUp(late, 'no answer before the deadline')
     this.#fill(now)
   }
@@ -115,7 +124,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     this.#output = []
     this.#received = EMPTY
     this.#dropped = true
-    for (const { job, sentAt } of pending) this.#finish(job, { kind: 'disconnected', sent: true }, sentAt)
+    for (const { job, serial, sentAt, sent } of pending) {
+      if (sent) this.#serials.rest(serial)
+      this.#finish(job, { kind: 'disconnected', sent }, sentAt)
+    }
     for (const job of waiting) this.#finish(job, { kind: 'disconnected', sent: false }, undefined)
   }
 
@@ -129,7 +141,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
 
   /** The next bytes to send, or `undefined`. On datagram links one buffer is one datagram. */
   transmit(): Buffer | undefined {
-    return this.#output.shift()
+    const next = this.#output.shift()
+    if (next === undefined) return undefined
+    next.sent = true
+    return next.bytes
   }
 
   /** The next event, or `undefined`. */
@@ -145,25 +160,27 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
         this.#finish(job, { kind: 'timedOut', sent: false }, undefined)
         continue
       }
-      const serial = this.#takeSerial()
-      this.#output.push(this.#framing.request.write(job.head, serial, job.body))
-      this.#pending.push({ job, serial, sentAt: now })
+      const serial = this.#serials.take((used) => this.#pending.some((entry) => entry.serial === used))
+      const entry = {
+        job,
+        serial,
+        bytes: this.#framing.request.write(job.head, serial, job.body),
+        sentAt: now,
+        sent: false,
+      }
+      this.#pending.push(entry)
+      this.#output.push(entry)
     }
-  }
-
-  #takeSerial(): number {
-    do this.#nextSerial = (this.#nextSerial + 1) % SERIALS
-    while (this.#quarantine.includes(this.#nextSerial))
-    return this.#nextSerial
   }
 
   #receiveStream(chunk: Buffer): void {
     this.#received = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
     try {
       while (this.#received.length > 0 && !this.#dropped) {
-        const used = this.#takeFrame(this.#received)
-        if (used === undefined) break
-        this.#received = used === this.#received.length ? EMPTY : this.#received.subarray(used)
+        const found = this.#find(this.#received)
+        if (found === undefined) break
+        this.#take(found)
+        this.#received = found.used >= this.#received.length ? EMPTY : this.#received.subarray(found.used)
       }
       this.#refuseEndlessFrame()
     } catch (error) {
@@ -177,38 +194,57 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     throw new ProtocolError('BAD_FRAME', `A frame of more than ${limit} bytes does not end.`)
   }
 
+  /** One datagram is one frame. What does not fit is looked at before anything of it is believed. */
   #receiveDatagram(datagram: Buffer): void {
+    const { length } = datagram
     try {
-      const used = this.#takeFrame(datagram)
-      if (used === datagram.length || this.#dropped) return
-      if (used === undefined)
-        throw new ProtocolError('TRUNCATED', 'A datagram ended before its frame did.', datagram.length, datagram)
-      throw new ProtocolError(
-        'TRAILING',
-        `A datagram holds ${datagram.length - used} byte(s) behind its frame.`,
-        used,
-        datagram,
-      )
+      const found = this.#find(datagram)
+      if (found === undefined) {
+        throw new ProtocolError('TRUNCATED', 'A datagram ended before its frame did.', length, datagram)
+      }
+      if (found.used !== length) {
+        const message = `A datagram holds ${length - found.used} byte(s) behind its frame.`
+        throw new ProtocolError('TRAILING', message, found.used, datagram)
+      }
+      this.#take(found)
     } catch (error) {
       this.#fail(error)
     }
   }
 
-  /** @returns how many bytes the frame at the front took, or `undefined` when it is not complete. */
-  #takeFrame(bytes: Buffer): number | undefined {
+  /** The frame at the front, or `undefined` when it is not complete. */
+  #find(bytes: Buffer): Found<Head> | undefined {
     if (this.#framing.response.isUnsolicited?.(bytes) === true) {
       const unsolicited = this.#framing.request.scan(bytes, () => undefined)
-      if (unsolicited !== undefined) this.#events.push({ kind: 'unsolicited', frame: unsolicited.frame })
-      return unsolicited?.used
+      return unsolicited && { used: unsolicited.used, kind: 'unsolicited', frame: unsolicited.frame }
     }
     // With nothing asked, an answer without a serial number belongs to nobody; 1E could not even tell where it ends.
-    if (this.#pending.length === 0 && this.#framing.correlation === 'order') return this.#unasked(bytes)
+    if (this.#pending.length === 0 && this.#framing.correlation === 'order') {
+      return { used: bytes.length, kind: 'unasked' }
+    }
     const scanned = this.#framing.response.scan(bytes, (head, soFar) =>
       this.#pending[0]?.job.responseLength(head, soFar),
     )
-    if (scanned === undefined) return undefined
-    this.#attribute(scanned.frame)
-    return scanned.used
+    return scanned && { used: scanned.used, kind: 'answer', frame: scanned.frame }
+  }
+
+  #take(found: Found<Head>): void {
+    switch (found.kind) {
+      case 'answer':
+        this.#attribute(found.frame)
+        return
+      case 'unsolicited':
+        this.#events.push({ kind: 'unsolicited', frame: found.frame })
+        return
+      case 'unasked':
+        if (this.#options.kind === 'stream') {
+          throw new ProtocolError('UNEXPECTED_ANSWER', 'An answer arrived that nobody asked for.', 0, this.#received)
+        }
+        this.#events.push({ kind: 'stale', serial: undefined })
+        return
+      default:
+        found satisfies never
+    }
   }
 
   #attribute(frame: ResponseFrame<Head>): void {
@@ -219,7 +255,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     const found = this.#pending[at]
     if (found === undefined) {
       // The late answer to a request that was given up: its number may be used again from now on.
-      this.#quarantine = this.#quarantine.filter((serial) => serial !== frame.serial)
+      this.#serials.release(frame.serial)
       this.#events.push({ kind: 'stale', serial: frame.serial })
       return
     }
@@ -232,36 +268,32 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       this.#events.push({ kind: 'renew', reason: 'answered' })
   }
 
-  #unasked(bytes: Buffer): number {
-    if (this.#options.kind === 'stream') {
-      throw new ProtocolError('UNEXPECTED_ANSWER', 'An answer arrived that nobody asked for.', 0, bytes)
-    }
-    this.#events.push({ kind: 'stale', serial: undefined })
-    return bytes.length
-  }
-
   #giveUp(entries: readonly Pending<J>[], why: string): void {
     this.#pending = this.#pending.filter((entry) => !entries.includes(entry))
+    this.#output = this.#output.filter((entry) => !entries.includes(entry))
+    const sent = entries.filter((entry) => entry.sent)
+    if (sent.length === 0) return
     if (this.#framing.correlation === 'serial') {
-      this.#quarantine.push(...entries.map((entry) => entry.serial))
-      this.#quarantine.splice(0, this.#quarantine.length - QUARANTINE)
+      for (const { serial } of sent) this.#serials.rest(serial)
       return
     }
-    if (this.#options.kind === 'datagram') this.#events.push({ kind: 'renew', reason: 'givenUp' })
-    else
-      this.#drop(
-        new ProtocolError(
-          'UNEXPECTED_ANSWER',
-          `The connection is dropped: ${why}, and a late answer could not be told from the next one.`,
-        ),
-      )
+    if (this.#options.kind === 'datagram') {
+      this.#events.push({ kind: 'renew', reason: 'givenUp' })
+      return
+    }
+    const message = `The connection was dropped: ${why}, and without a serial number a late answer could not be told from the next one.`
+    this.#drop(new ConnectionError('DISCONNECTED', message, 'unknown'))
   }
 
   #fail(error: unknown): void {
     if (!(error instanceof PlcError)) throw error
-    const pending = this.#pending
-    this.#pending = []
-    for (const { job, sentAt } of pending) this.#finish(job, { kind: 'failed', error }, sentAt)
+    const failed = this.#pending.filter((entry) => entry.sent)
+    // What is still here was not sent: it ends with the connection, and its owner may send it on the next one.
+    this.#pending = this.#pending.filter((entry) => !entry.sent)
+    for (const { job, serial, sentAt } of failed) {
+      this.#serials.rest(serial)
+      this.#finish(job, { kind: 'failed', error }, sentAt)
+    }
     this.#drop(error)
   }
 

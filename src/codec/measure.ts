@@ -1,0 +1,79 @@
+// How many bytes a message takes, without writing it.
+import { asked, type Bag, type Context, countToRead, sizeIn } from './count'
+import type { ValueCodec } from './cursor'
+import { type BulkField, type Count, type Field, type Shape, WIDTH } from './field'
+
+/** What is known of a message when its size is asked for. */
+export interface Measured {
+  readonly ascii: boolean
+  readonly form: number
+  /** The message itself, when it is known (a request that is sent, a response that was built). */
+  readonly message?: Readonly<Record<string, unknown>>
+  /** The request, when a response is measured. */
+  readonly context?: Context
+}
+
+/**
+ * Bytes a message of `shape` takes, without encoding it.
+ * Frames without a length (1E, Sharp JW) need this to know where an answer ends.
+ */
+export function measure(shape: Shape, known: Measured): number {
+  let total = 0
+  for (const name in shape) total += span(shape[name] as Field, name, known)
+  return total
+}
+
+function span(field: Field, name: string, known: Measured): number {
+  const digits = known.ascii ? 2 : 1
+  const own = known.message?.[name]
+  const count = (of: Count) => sizeIn(own) ?? countToRead(of, name, (known.message ?? {}) as Bag, known.context)
+  switch (field.kind) {
+    case 'u8':
+    case 'u16':
+    case 'u32':
+      return WIDTH[field.kind] * digits
+    case 'fixed':
+    case 'count':
+      return field.width * digits
+    case 'echo':
+      return spanOfEcho(field.of, known)
+    case 'value':
+      return (field.codec as ValueCodec<unknown>).size(known.ascii, known.form, own)
+    case 'words':
+    case 'doubleWords':
+    case 'bits':
+    case 'bytes':
+      return bulkSize(field.kind, count(field.count), known.ascii)
+    case 'text':
+      return count(field.count)
+    case 'list':
+      return spanOfList(field.item, own, count(field.count), known)
+    case 'each':
+      return (asked(known.context).message[field.of] as readonly Bag[]).reduce(
+        (total, element) =>
+          total + bulkSize(field.item.kind, countToRead(field.item.count, '', element, undefined), known.ascii),
+        0,
+      )
+    default:
+      return field satisfies never
+  }
+}
+
+function spanOfEcho(of: string, known: Measured): number {
+  const { shape, message } = asked(known.context)
+  return span(shape[of] as Field, of, { ascii: known.ascii, form: known.form, message })
+}
+
+function spanOfList(item: Shape, own: unknown, count: number, known: Measured): number {
+  const { message: _, ...rest } = known
+  if (Array.isArray(own)) {
+    return (own as readonly Bag[]).reduce((total, element) => total + measure(item, { ...rest, message: element }), 0)
+  }
+  return count * measure(item, rest)
+}
+
+function bulkSize(kind: BulkField['kind'], count: number, ascii: boolean): number {
+  if (kind === 'bits') return ascii ? count : (count + 1) >> 1
+  const bytes = { words: 2, doubleWords: 4, bytes: 1 }[kind] * count
+  return ascii ? bytes * 2 : bytes
+}
