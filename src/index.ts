@@ -1,1 +1,90 @@
-export * from './errors'
+// The public names. No code.
+
+export type { CallOptions } from './client/call'
+export type { ConnectionState } from './client/connection'
+export type { ClearMode, Control, Identity, PauseOptions, RunOptions } from './client/control'
+export {
+  type ClientEvents,
+  createMelsecClient,
+  type ItemValue,
+  MelsecClient,
+  type ReadPlan,
+  type ReadValue,
+  type UnsolicitedFrame,
+  type WriteEntry,
+  type WritePlan,
+} from './client/melsec-client'
+export type { Monitor } from './client/monitor'
+export type { MelsecClientOptions } from './client/options'
+export {
+  formatItem,
+  type Item,
+  type ItemExplanation,
+  type ItemOptions,
+  type ParsedItem,
+  type PlanDescription,
+  parseItem,
+  type ReadResult,
+  type RefusedItem,
+  type RequestDescription,
+  tryParseItem,
+  type WriteOptions,
+  type WriteResult,
+} from './client/plan'
+export type { RoundTrip, Statistics } from './client/statistics'
+export type { ConnectionStateName } from './client/supervisor'
+export type { TraceEntry } from './client/trace'
+export type { DataCode, Declaration, Effect, FieldDescription, MessageInput, MessageOf } from './codec/codec'
+export { describe as describeFields } from './codec/codec'
+export {
+  ClosedError,
+  ConnectionError,
+  EndCodeError,
+  type Outcome,
+  PlcError,
+  type PlcErrorCode,
+  ProtocolError,
+  RequestError,
+  TimeoutError,
+} from './errors'
+export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/address'
+export type { RequestOf, ResponseOf } from './melsec/command'
+export { type CommandName, type Commands, commands } from './melsec/commands/commands'
+export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from './melsec/device'
+export {
+  type EndCodeExplanation,
+  type ExplainOptions,
+  endCodes,
+  explainEndCode,
+  type Language,
+  languages,
+} from './melsec/end-code'
+export { explainFrame, formatExplanation } from './melsec/explain-frame'
+export { modelCodes, modelOf } from './melsec/model-code'
+export {
+  type DeviceForm,
+  type FrameName,
+  type Profile,
+  type ProfileId,
+  type ProfileOverrides,
+  profileIds,
+  profiles,
+  resolveProfile,
+  type TransportName,
+} from './melsec/profile'
+export type { ExchangeOptions } from './melsec/protocol'
+export { moduleIoNumbers, type Route } from './melsec/route'
+export * from './simulator/simulator'
+export type { Clock } from './transport/clock'
+export type { OpenTransport, Transport, TransportHandlers } from './transport/transport'
+export {
+  formatType,
+  type PlcValue,
+  parseType,
+  type TypeName,
+  typeNames,
+  type ValueFormat,
+  type ValueOf,
+  type ValueType,
+  valueTypes,
+} from './value/value'

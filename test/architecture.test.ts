@@ -18,7 +18,7 @@ const ROOMS: Readonly<Record<string, readonly string[]>> = {
   value: ['errors'],
   transport: ['errors'],
   client: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'transport'],
-  simulator: ['errors', 'codec', 'link', 'melsec', 'jw', 'transport'],
+  simulator: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'transport'],
   index: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'transport', 'client', 'simulator'],
   cli: ['index'],
   nodes: ['index'],
@@ -39,7 +39,7 @@ const OUTSIDE: readonly (readonly [RegExp, readonly string[]])[] = [
 const NAMES: readonly (readonly [RegExp, readonly string[]])[] = [
   [/^(setTimeout|setInterval|setImmediate|performance|hrtime)$/, ['transport']],
   [/^Date\.now$/, ['transport']],
-  [/^process$/, ['cli', 'transport']],
+  [/^process$/, ['cli', 'client', 'transport']],
 ]
 
 const LONGEST_FILE = 500

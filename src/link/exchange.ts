@@ -6,6 +6,8 @@ export interface Exchange<Head, T> {
   /** Manual's name of the command, for messages and traces. */
   readonly title: string
   readonly effect: Effect
+  /** The message the body says. */
+  readonly message: Readonly<Record<string, unknown>>
   readonly head: Head
   readonly body: Buffer
   /** `false`: the PLC does not answer when it succeeds (Remote Reset). */

@@ -58,6 +58,7 @@ export class HeadProtocol<Head> {
     return {
       title: command.title,
       effect: command.effect,
+      message,
       head: this.#parts.headOf(command),
       body,
       answered: command.answered !== 'no',

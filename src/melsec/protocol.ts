@@ -123,6 +123,7 @@ export class MelsecProtocol<Head> {
     return {
       title: command.title,
       effect: command.effect,
+      message: bag,
       head: this.#head,
       body: writer.take(),
       answered: command.answered !== 'no',

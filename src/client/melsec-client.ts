@@ -1,0 +1,471 @@
+// The client of a MELSEC PLC: one connection in the background, typed items on top of it.
+import type { DataCode } from '../codec/codec'
+import { RequestError } from '../errors'
+import type { Exchange } from '../link/link'
+import type { Command, RequestOf, ResponseOf } from '../melsec/command'
+import { commands } from '../melsec/commands/commands'
+import { frame3e, type Head3e } from '../melsec/frame-3e'
+import type { Profile } from '../melsec/profile'
+import { type ExchangeOptions, MelsecProtocol } from '../melsec/protocol'
+import { tcpTransport } from '../transport/tcp'
+import type { OpenTransport } from '../transport/transport'
+import { udpTransport } from '../transport/udp'
+import type { PlcValue, ValueOf } from '../value/value'
+import type { CallOptions } from './call'
+import { Connection, type ConnectionState } from './connection'
+import { type Control, controlOf, type Identity, identify, type Send, selfTest } from './control'
+import { explainSilence } from './diagnosis'
+import { ItemMonitor, type Monitor, Registration } from './monitor'
+import { type MelsecClientOptions, type Settings, settle } from './options'
+import {
+  explainItem,
+  type Item,
+  type ItemExplanation,
+  type ParsedItem,
+  type PlanDescription,
+  type Send as PlanSend,
+  parseItem,
+  planRead,
+  planWrite,
+  type ReadResult,
+  type RefusedItem,
+  type WriteOptions,
+  type WriteResult,
+} from './plan'
+import type { Statistics } from './statistics'
+import { type TraceEntry, Tracer } from './trace'
+
+/** A value read from an item without, or with, a count or range. */
+export type ReadValue = PlcValue | PlcValue[]
+
+/** The type of an item's value as far as its text says it: `D100:REAL` number, `D100:REAL[4]` number[]. */
+export type ItemValue<I> = I extends `${string}:${infer T}[${string}]`
+  ? ValueOf<T>[]
+  : I extends `${string}..${string}`
+    ? PlcValue[]
+    : I extends `${string}:${infer T}`
+      ? ValueOf<T>
+      : ReadValue
+
+/** What a client tells those who listen. */
+export interface ClientEvents {
+  /** The state of the connection changed. */
+  readonly state: ConnectionState
+  /** A frame was sent or received. Costs time only while somebody listens. */
+  readonly trace: TraceEntry
+  /** A frame that the PLC sent unasked. */
+  readonly unsolicited: UnsolicitedFrame
+}
+
+/** A frame that arrived in the form of a request. */
+export interface UnsolicitedFrame {
+  readonly route: Head3e['route']
+  /** Command, subcommand and data, in the data code of the connection. */
+  readonly body: Buffer
+}
+
+/** One value to write. */
+export interface WriteEntry {
+  readonly item: Item
+  readonly value: ReadValue
+}
+
+/** A prepared read: run it again and again; nothing is parsed or encoded anew. */
+export interface ReadPlan {
+  /** Reads all items once. Each has its own result; it rejects only for a bug. */
+  run(options?: CallOptions): Promise<ReadResult[]>
+  /** Requests, points, bytes and notes, for people. */
+  describe(): PlanDescription
+  toString(): string
+}
+
+/** A prepared write. */
+export interface WritePlan {
+  /** Writes all entries once, in their order. Needs `allowWrites`. */
+  run(options?: CallOptions): Promise<WriteResult[]>
+  describe(): PlanDescription
+  toString(): string
+}
+
+/** Prepared reads and writes of one item, found again by its text. */
+const PREPARED_ITEMS = 1000
+
+/**
+ * A client of one MELSEC PLC over SLMP (3E or 4E frame). It connects at the first call, stays connected in the
+ * background, and reconnects by itself until `close()`.
+ *
+ * Every rejection is a `PlcError`: its `code` says what, its `outcome` whether the PLC may have carried it out.
+ * @example
+ * const plc = createMelsecClient({ host: '192.168.3.39', port: 5007, profile: 'iq-r' })
+ * const level = await plc.read('D100:REAL')
+ */
+export class MelsecClient {
+  readonly #settings: Settings
+  readonly #protocol: MelsecProtocol<Head3e>
+  readonly #connection: Connection<Head3e>
+  readonly #listeners = new Map<keyof ClientEvents, Set<(event: never) => void>>()
+  readonly #tracer: Tracer
+  readonly #prepared = new Map<string, ReadPlan>()
+  readonly #registration: Registration
+  readonly #send: Send
+  /** Remote RUN, STOP, PAUSE, latch clear and reset. Needs `allowControl`. */
+  readonly control: Control
+
+  constructor(readonly options: MelsecClientOptions) {
+    const settings = settle(options)
+    this.#settings = settings
+    this.#protocol = protocolOf(settings, options)
+    this.#tracer = new Tracer({ frame: settings.frame, code: settings.code, profile: settings.profile })
+    this.#connection = new Connection({
+      framing: this.#protocol.framing,
+      openTransport: options.openTransport ?? transportOf(settings, options),
+      clock: settings.clock,
+      supervisor: settings,
+      inFlight: settings.inFlight,
+      queueLimit: settings.queueLimit,
+      connectTimeout: settings.connectTimeout,
+      timeout: settings.timeout,
+      probe: () => this.#probe(),
+      explainSilence: (silence) =>
+        explainSilence({ ...settings, port: options.port, localPort: options.localPort }, silence),
+      onState: (state) => this.#tell('state', state),
+      onUnsolicited: ({ head, body }) => this.#tell('unsolicited', { route: head.route, body }),
+    })
+    this.#registration = new Registration(() => this.#connection.generation)
+    this.#send = (command, message, call) => this.request(command, message, call)
+    this.control = controlOf(this.#send, settings.profile)
+  }
+
+  /** The family of PLCs it speaks to, with the overrides merged in. */
+  get profile(): Profile {
+    return this.#settings.profile
+  }
+
+  get code(): DataCode {
+    return this.#settings.code
+  }
+
+  get state(): ConnectionState {
+    return this.#connection.state
+  }
+
+  /** Counters and round-trip times since the client was made. */
+  get statistics(): Statistics {
+    return this.#connection.statistics
+  }
+
+  /** Listens to an event. @returns what ends it. */
+  on<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
+    const listeners = this.#listeners.get(event) ?? new Set()
+    this.#listeners.set(event, listeners)
+    listeners.add(listener)
+    this.#traceIfWanted()
+    return () => {
+      listeners.delete(listener)
+      this.#traceIfWanted()
+    }
+  }
+
+  #traceIfWanted(): void {
+    const wanted = (this.#listeners.get('trace')?.size ?? 0) > 0
+    this.#connection.onTrace = wanted ? (frame) => this.#tell('trace', this.#tracer.entry(frame)) : undefined
+  }
+
+  #tell<E extends keyof ClientEvents>(event: E, value: ClientEvents[E]): void {
+    const listeners = this.#listeners.get(event) as Set<(event: ClientEvents[E]) => void> | undefined
+    if (listeners === undefined) return
+    for (const listener of [...listeners]) {
+      try {
+        listener(value)
+      } catch (error) {
+        // A listener's mistake must not stop the connection beside a running machine; it must not go unseen either.
+        process.emitWarning(error instanceof Error ? error : String(error))
+      }
+    }
+  }
+
+  /** Connects now instead of at the first call. Resolves when the PLC has answered. */
+  connect(options?: CallOptions): Promise<void> {
+    return this.#connection.connect(options)
+  }
+
+  /** Ends the connection and every call under way. The client cannot be used again. */
+  async close(): Promise<void> {
+    this.#connection.close()
+  }
+
+  /**
+   * Reads one item, or many in few requests.
+   * One item: its value; throws what went wrong. Many: a result per item, so that one bad item does not hide the others.
+   * @example await plc.read('D100:REAL')
+   * @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' })
+   */
+  read<const I extends Item>(item: I, options?: CallOptions): Promise<ItemValue<I>>
+  read(items: readonly Item[], options?: CallOptions): Promise<ReadResult[]>
+  read<K extends string>(items: Readonly<Record<K, Item>>, options?: CallOptions): Promise<Record<K, ReadResult>>
+  async read(
+    items: Item | readonly Item[] | Readonly<Record<string, Item>>,
+    options?: CallOptions,
+  ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
+    if (isItem(items)) return plainValue((await this.#runSingle(items, options))[0])
+    if (isList(items)) return this.plan(items).run(options)
+    const names = Object.keys(items)
+    const results = await this.plan(names.map((name) => items[name] as Item)).run(options)
+    return byName(names, results)
+  }
+
+  /**
+   * Reads as `read` does and gives plain values.
+   * @throws the first item's error when any item failed.
+   * @example const { level, temperature } = await plc.readValues({ level: 'D100:REAL', temperature: 'D102:REAL' })
+   */
+  readValues<const L extends readonly Item[]>(
+    items: L,
+    options?: CallOptions,
+  ): Promise<{ -readonly [K in keyof L]: ItemValue<L[K]> }>
+  readValues<const R extends Readonly<Record<string, Item>>>(
+    items: R,
+    options?: CallOptions,
+  ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
+  async readValues(items: readonly Item[] | Readonly<Record<string, Item>>, options?: CallOptions): Promise<unknown> {
+    if (isList(items)) return (await this.plan(items).run(options)).map(plainValue)
+    const names = Object.keys(items)
+    const results = await this.plan(names.map((name) => items[name] as Item)).run(options)
+    return byName(names, results.map(plainValue))
+  }
+
+  /** One item is prepared once and found again by its text: programs read the same few items all day. */
+  #runSingle(item: Item, options: CallOptions | undefined): Promise<ReadResult[]> {
+    if (typeof item !== 'string') return this.plan([item]).run(options)
+    let plan = this.#prepared.get(item)
+    if (plan === undefined) {
+      plan = this.plan([item])
+      if (this.#prepared.size >= PREPARED_ITEMS) this.#prepared.clear()
+      this.#prepared.set(item, plan)
+    }
+    return plan.run(options)
+  }
+
+  /**
+   * The requests that read these items: to look at (`describe()`), and to run again and again without parsing.
+   * Items that cannot be read keep their error as their result.
+   */
+  plan(items: readonly Item[]): ReadPlan {
+    const plan = planRead(
+      items.map((item) => this.#parse(item)),
+      this.#protocol,
+      this.#planOptions,
+    )
+    return {
+      run: (options) => plan.run(this.#within(options), () => this.#settings.clock.time()),
+      describe: () => plan.describe(),
+      toString: () => plan.toString(),
+    }
+  }
+
+  get #planOptions(): { readonly gap: number; readonly xyRadix: 8 | 16 } {
+    return { gap: this.#settings.gap, xyRadix: this.#settings.xyRadix }
+  }
+
+  /** Sends for one call: all its requests share one absolute deadline. */
+  #within(options: CallOptions = {}): PlanSend<Head3e> {
+    const { clock, timeout } = this.#settings
+    const deadline = clock.now() + (options.timeout ?? timeout)
+    return (exchange) => {
+      this.#permit(exchange.effect, exchange.title)
+      return this.#connection.request(exchange, { ...options, timeout: Math.max(0, deadline - clock.now()) })
+    }
+  }
+
+  #parse(item: Item): ParsedItem | RefusedItem {
+    try {
+      const parsed = parseItem(item, { xyRadix: this.#settings.xyRadix, format: this.#settings.format })
+      if (this.#settings.xyUnknown) refuseAmbiguousXy(parsed)
+      return parsed
+    } catch (error) {
+      if (!(error instanceof RequestError)) throw error
+      return { text: typeof item === 'string' ? item : String(item.address), error }
+    }
+  }
+
+  /** What reading the item will touch, for people and editors. @throws RequestError when it is not an item. */
+  explain(item: Item): ItemExplanation {
+    const parsed = this.#parse(item)
+    if ('error' in parsed) throw parsed.error
+    return explainItem(parsed, this.#protocol, { xyRadix: this.#settings.xyRadix })
+  }
+
+  /**
+   * Writes one item, or many. Needs `allowWrites`. A write whose outcome is unknown is never repeated.
+   * @example await plc.write('D200:REAL', 71.5)
+   * @example const results = await plc.write({ 'D200:REAL': 71.5, M10: true })
+   */
+  write(item: Item, value: ReadValue, options?: CallOptions & WriteOptions): Promise<void>
+  write(entries: readonly WriteEntry[], options?: CallOptions & WriteOptions): Promise<WriteResult[]>
+  write(
+    values: Readonly<Record<string, ReadValue>>,
+    options?: CallOptions & WriteOptions,
+  ): Promise<Record<string, WriteResult>>
+  async write(
+    target: Item | readonly WriteEntry[] | Readonly<Record<string, ReadValue>>,
+    second?: ReadValue | (CallOptions & WriteOptions),
+    third?: CallOptions & WriteOptions,
+  ): Promise<unknown> {
+    if (isItem(target)) {
+      const [result] = await this.#write([{ item: target, value: second as ReadValue }], third)
+      if (result?.ok === false) throw result.error
+      return undefined
+    }
+    const options = second as (CallOptions & WriteOptions) | undefined
+    if (isList(target)) return this.#write(target, options)
+    const names = Object.keys(target)
+    return byName(
+      names,
+      await this.#write(
+        names.map((item) => ({ item, value: target[item] as ReadValue })),
+        options,
+      ),
+    )
+  }
+
+  async #write(
+    entries: readonly WriteEntry[],
+    options: (CallOptions & WriteOptions) | undefined,
+  ): Promise<WriteResult[]> {
+    this.#permit('write', 'Writing')
+    return this.planWrite(entries, options).run(options)
+  }
+
+  /** The requests that write these values: to look at before they are run. */
+  planWrite(entries: readonly WriteEntry[], options: WriteOptions = {}): WritePlan {
+    const parsed = entries.map(({ item, value }) => ({ item: this.#parse(item), value }))
+    const plan = planWrite(parsed, this.#protocol, { ...options, xyRadix: this.#settings.xyRadix })
+    return {
+      run: (call) => plan.run(this.#within(call)),
+      describe: () => plan.describe(),
+      toString: () => plan.toString(),
+    }
+  }
+
+  /**
+   * Items that are registered in the PLC once and then read with a request that names none of them (0801, 0802).
+   * Where the profile has no monitor commands, Read Random is used instead and `note` says so.
+   */
+  monitor(items: readonly Item[]): Monitor {
+    return new ItemMonitor(
+      items.map((item) => this.#parse(item)),
+      this.#protocol,
+      {
+        ...this.#planOptions,
+        send: (options) => this.#within(options),
+        time: () => this.#settings.clock.time(),
+        registration: this.#registration,
+      },
+    )
+  }
+
+  /**
+   * Sends any declared command.
+   * @example await plc.request(commands.readWords, { head: { device: 'D', number: 100 }, points: 2 })
+   */
+  async request<C extends Command>(
+    command: C,
+    message: RequestOf<C>,
+    options: CallOptions & ExchangeOptions = {},
+  ): Promise<ResponseOf<C>> {
+    this.#permit(command.effect, command.title)
+    return this.#connection.request(this.#protocol.exchange(command, message, options), options)
+  }
+
+  #permit(effect: Exchange<Head3e, unknown>['effect'], title: string): void {
+    if (effect === 'write' && !this.#settings.allowWrites) throw notPermitted(title, 'allowWrites')
+    if (effect === 'control' && !this.#settings.allowControl) throw notPermitted(title, 'allowControl')
+  }
+
+  /** Who the PLC says it is, with what its model code means. */
+  identify(options?: CallOptions): Promise<Identity> {
+    return identify(this.#send, options)
+  }
+
+  /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns the round trip in ms. */
+  async selfTest(data?: string, options?: CallOptions): Promise<{ readonly roundTrip: number }> {
+    const start = this.#settings.clock.now()
+    await selfTest(this.#send, data, options)
+    return { roundTrip: this.#settings.clock.now() - start }
+  }
+
+  /** Clears the error codes of the connected module and turns its error LED off. Needs `allowControl`. */
+  async clearError(options?: CallOptions): Promise<void> {
+    await this.#send(commands.clearError, {}, options)
+  }
+
+  /** Read Type Name: harmless, and known to every CPU at least well enough to refuse it, which is an answer too. */
+  #probe(): Exchange<Head3e, unknown> {
+    return this.#protocol.exchange(commands.readTypeName, {})
+  }
+}
+
+/** Only the profile tells whether X10 is the 8th or the 16th input, and a wrong guess switches another output. */
+function refuseAmbiguousXy({ address }: ParsedItem): void {
+  if ((address.device !== 'X' && address.device !== 'Y') || address.number < 8 || address.extension !== undefined)
+    return
+  throw new RequestError(
+    'BAD_ADDRESS',
+    `${address.device} numbers from 10 on are octal on iQ-F and FX and hexadecimal elsewhere, and the profile generic does not say which. ` +
+      'Set the profile (iq-r, iq-f, q, l) or xyRadix to 8 or 16.',
+    'xyRadix',
+  )
+}
+
+function notPermitted(title: string, option: 'allowWrites' | 'allowControl'): RequestError {
+  const what = option === 'allowWrites' ? 'writing to' : 'controlling'
+  return new RequestError(
+    'NOT_PERMITTED',
+    `${title} was not sent: ${what} this PLC is not allowed. Set ${option} to true if it should be.`,
+    option,
+  )
+}
+
+function protocolOf(
+  { frame, code, profile, route, timer }: Settings,
+  { asciiXy, asciiZr }: MelsecClientOptions,
+): MelsecProtocol<Head3e> {
+  return new MelsecProtocol({ framing: frame3e(frame, code), head: { route, timer }, profile, code, asciiXy, asciiZr })
+}
+
+function transportOf(
+  { transport }: Settings,
+  { host, port, localAddress, localPort }: MelsecClientOptions,
+): OpenTransport {
+  const endpoint = { host, port, localAddress, localPort }
+  return transport === 'udp' ? udpTransport(endpoint) : tcpTransport(endpoint)
+}
+
+function isItem(given: unknown): given is Item {
+  return (
+    typeof given === 'string' ||
+    (typeof given === 'object' && given !== null && typeof (given as { address?: unknown }).address === 'string')
+  )
+}
+
+function isList<T>(given: readonly T[] | Readonly<Record<string, unknown>>): given is readonly T[] {
+  return Array.isArray(given)
+}
+
+function plainValue(result: ReadResult | undefined): ReadValue {
+  if (result?.ok === true) return result.value
+  throw result?.error ?? new RequestError('BAD_ADDRESS', 'There is nothing to read.')
+}
+
+function byName<T>(names: readonly string[], values: readonly T[]): Record<string, T> {
+  return Object.fromEntries(names.map((name, i) => [name, values[i] as T]))
+}
+
+/**
+ * Makes a client. Nothing is connected before the first call or `connect()`.
+ * @throws RequestError BAD_OPTION naming the option that is wrong.
+ * @example const plc = createMelsecClient({ host: '192.168.3.39', port: 5007, profile: 'iq-f' })
+ */
+export function createMelsecClient(options: MelsecClientOptions): MelsecClient {
+  return new MelsecClient(options)
+}

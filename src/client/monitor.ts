@@ -1,0 +1,198 @@
+// Items the PLC is told once (0801) and asked for again and again with a request that names none (0802).
+import { EndCodeError, PlcError, RequestError } from '../errors'
+import type { Exchange } from '../link/link'
+import type { RequestOf } from '../melsec/command'
+import { commands } from '../melsec/commands/commands'
+import type { MelsecProtocol } from '../melsec/protocol'
+import type { CallOptions } from './call'
+import type { ParsedItem, RefusedItem } from './item'
+import type { Run } from './plan-chunk'
+import { Areas, piecesOf, readLayout } from './plan-layout'
+import { planRead, type ReadPlan, type ReadResult } from './plan-read'
+import { about } from './plan-read-shape'
+import { type PreparedRead, prepareRead, type Send } from './plan-request'
+import { type Place, placeOf, valueAt } from './plan-value'
+
+/** What a monitor needs of its client. */
+export interface MonitorOptions<Head> {
+  readonly gap: number
+  readonly xyRadix: 8 | 16
+  /** Sends within one call's deadline. */
+  readonly send: (options: CallOptions | undefined) => Send<Head>
+  readonly time: () => number
+  readonly registration: Registration
+}
+
+/**
+ * What the PLC remembers of the connection: one registration at a time, forgotten with the connection. The monitors
+ * of a client share it, one after another: between registering and asking no other may register.
+ */
+export class Registration {
+  #owner: object | undefined
+  #generation = -1
+  #turn: Promise<unknown> = Promise.resolve()
+
+  constructor(readonly generation: () => number) {}
+
+  /** Runs `use` when every earlier one has ended. */
+  inTurn<T>(use: () => Promise<T>): Promise<T> {
+    const turn = this.#turn.then(use)
+    this.#turn = turn.catch(() => undefined)
+    return turn
+  }
+
+  isOf(owner: object): boolean {
+    return this.#owner === owner && this.#generation === this.generation()
+  }
+
+  take(owner: object, generation: number): void {
+    this.#owner = owner
+    this.#generation = generation
+  }
+
+  lose(): void {
+    this.#owner = undefined
+  }
+}
+
+/** Monitoring of some items; made by `client.monitor(items)`. */
+export interface Monitor {
+  /** `monitor`: registered in the PLC. `read`: read anew each time, because the PLC cannot register them. */
+  readonly mode: 'monitor' | 'read'
+  /** Why the PLC's monitor is not used, in words; undefined when it is. */
+  readonly note: string | undefined
+  /** Reads all items once; each has its own result. */
+  read(options?: CallOptions): Promise<ReadResult[]>
+}
+
+export class ItemMonitor<Head> implements Monitor {
+  readonly #options: MonitorOptions<Head>
+  readonly #registered: Registered<Head> | undefined
+  readonly #plan: ReadPlan<Head>
+  readonly note: string | undefined
+
+  constructor(
+    items: readonly (ParsedItem | RefusedItem)[],
+    protocol: MelsecProtocol<Head>,
+    options: MonitorOptions<Head>,
+  ) {
+    this.#options = options
+    this.#plan = planRead(items, protocol, options)
+    try {
+      this.#registered = new Registered(items, protocol, options)
+    } catch (error) {
+      if (!(error instanceof RequestError)) throw error
+      this.note = `The items are read without monitor commands. ${error.message}`
+    }
+  }
+
+  get mode(): 'monitor' | 'read' {
+    return this.#registered === undefined ? 'read' : 'monitor'
+  }
+
+  read(options?: CallOptions): Promise<ReadResult[]> {
+    const send = this.#options.send(options)
+    if (this.#registered === undefined) return this.#plan.run(send, this.#options.time)
+    return this.#registered.read(send)
+  }
+}
+
+/** The items as one registration. */
+class Registered<Head> {
+  readonly #items: readonly (ParsedItem | RefusedItem)[]
+  readonly #places: readonly Place[]
+  readonly #prepared: PreparedRead<Head>
+  readonly #entry: Exchange<Head, unknown>
+  readonly #execute: Exchange<Head, unknown>
+  readonly #options: MonitorOptions<Head>
+
+  /** @throws RequestError when the items cannot be registered together. */
+  constructor(
+    items: readonly (ParsedItem | RefusedItem)[],
+    protocol: MelsecProtocol<Head>,
+    options: MonitorOptions<Head>,
+  ) {
+    this.#items = items
+    this.#options = options
+    const areas = new Areas(protocol, 'read')
+    const runs = items.flatMap((item, index) => ('error' in item ? [] : [runOf(areas, item, index)]))
+    this.#prepared = prepareRead(protocol, { kind: 'random', runs }, options)
+    this.#places = runs.flatMap((run) => placesOf(run, items, this.#prepared.offsets.get(run) ?? 0))
+    const { words, doubleWords } = this.#prepared.exchange.message as RequestOf<typeof commands.readRandom>
+    this.#entry = protocol.exchange(commands.entryMonitorDevice, { words, doubleWords })
+    this.#execute = protocol.exchange(commands.executeMonitor, {}, { context: this.#prepared.exchange.message })
+  }
+
+  async read(send: Send<Head>): Promise<ReadResult[]> {
+    try {
+      return this.#results(await this.#options.registration.inTurn(() => this.#fetch(send)))
+    } catch (error) {
+      if (!(error instanceof PlcError)) throw error
+      const timestamp = this.#options.time()
+      return this.#items.map((item) => ({
+        item: item.text,
+        ok: false,
+        error: 'error' in item ? item.error : error,
+        timestamp,
+      }))
+    }
+  }
+
+  async #fetch(send: Send<Head>): Promise<ArrayLike<number>> {
+    const { registration } = this.#options
+    // Execute Monitor answers what Read Random with the same devices would, so its words are taken apart the same way.
+    const execute = () => this.#prepared.fetch(<T>() => send(this.#execute as Exchange<Head, T>))
+    const isNew = !registration.isOf(this)
+    if (isNew) await this.#register(send)
+    try {
+      return await execute()
+    } catch (error) {
+      // A PLC that restarted behind a connection that lives has forgotten the registration: once more, then it is an error.
+      if (isNew || !(error instanceof EndCodeError)) throw error
+      registration.lose()
+      await this.#register(send)
+      return execute()
+    }
+  }
+
+  async #register(send: Send<Head>): Promise<void> {
+    const { registration } = this.#options
+    registration.lose()
+    await send(this.#entry)
+    registration.take(this, registration.generation())
+  }
+
+  #results(words: ArrayLike<number>): ReadResult[] {
+    const timestamp = this.#options.time()
+    const results = this.#items.map((item): ReadResult | undefined =>
+      'error' in item ? { item: item.text, ok: false, error: item.error, timestamp } : undefined,
+    )
+    for (const place of this.#places) results[place.item] = this.#resultOf(words, place, timestamp)
+    return results.filter((result) => result !== undefined)
+  }
+
+  #resultOf(words: ArrayLike<number>, place: Place, timestamp: number): ReadResult {
+    const item = this.#items[place.item]?.text ?? ''
+    try {
+      return { item, ok: true, value: valueAt(words, place), timestamp }
+    } catch (error) {
+      if (!(error instanceof PlcError)) throw error
+      return { item, ok: false, error, timestamp }
+    }
+  }
+}
+
+function runOf(areas: Areas, item: ParsedItem, index: number): Run {
+  const [piece, ...others] = piecesOf(areas, readLayout(areas, item), item, index)
+  if (piece === undefined || others.length > 0 || piece.layout.area.ways.random === undefined) {
+    throw about(item, new RequestError('UNSUPPORTED', 'it cannot be registered: monitors take what Read Random takes.'))
+  }
+  return { area: piece.layout.area, from: piece.from, to: piece.to, members: [piece] }
+}
+
+function placesOf(run: Run, items: readonly (ParsedItem | RefusedItem)[], offset: number): Place[] {
+  return run.members.flatMap((piece) => {
+    const item = items[piece.item]
+    return item === undefined || 'error' in item ? [] : [placeOf(piece, item, offset, run.from)]
+  })
+}
