@@ -87,8 +87,8 @@ export interface WritePlan {
   toString(): string
 }
 
-/** Prepared reads and writes of one item, found again by its text. */
-const PREPARED_ITEMS = 1000
+/** Plans of `read` that are kept. A program that reads ever new lists must not fill the memory with them. */
+const PREPARED_PLANS = 500
 
 /**
  * A client of one MELSEC PLC over SLMP (3E or 4E frame). It connects at the first call, stays connected in the
@@ -207,11 +207,10 @@ export class MelsecClient {
     items: Item | readonly Item[] | Readonly<Record<string, Item>>,
     options?: CallOptions,
   ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
-    if (isItem(items)) return plainValue((await this.#runSingle(items, options))[0])
-    if (isList(items)) return this.plan(items).run(options)
+    if (isItem(items)) return plainValue((await this.#prepare([items]).run(options))[0])
+    if (isList(items)) return this.#prepare(items).run(options)
     const names = Object.keys(items)
-    const results = await this.plan(names.map((name) => items[name] as Item)).run(options)
-    return byName(names, results)
+    return byName(names, await this.#prepare(names.map((name) => items[name] as Item)).run(options))
   }
 
   /**
@@ -228,22 +227,22 @@ export class MelsecClient {
     options?: CallOptions,
   ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
   async readValues(items: readonly Item[] | Readonly<Record<string, Item>>, options?: CallOptions): Promise<unknown> {
-    if (isList(items)) return (await this.plan(items).run(options)).map(plainValue)
+    if (isList(items)) return (await this.#prepare(items).run(options)).map(plainValue)
     const names = Object.keys(items)
-    const results = await this.plan(names.map((name) => items[name] as Item)).run(options)
+    const results = await this.#prepare(names.map((name) => items[name] as Item)).run(options)
     return byName(names, results.map(plainValue))
   }
 
-  /** One item is prepared once and found again by its text: programs read the same few items all day. */
-  #runSingle(item: Item, options: CallOptions | undefined): Promise<ReadResult[]> {
-    if (typeof item !== 'string') return this.plan([item]).run(options)
-    let plan = this.#prepared.get(item)
-    if (plan === undefined) {
-      plan = this.plan([item])
-      if (this.#prepared.size >= PREPARED_ITEMS) this.#prepared.clear()
-      this.#prepared.set(item, plan)
-    }
-    return plan.run(options)
+  /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
+  #prepare(items: readonly Item[]): ReadPlan {
+    if (!items.every((item) => typeof item === 'string')) return this.plan(items)
+    const key = items.join('\n')
+    const known = this.#prepared.get(key)
+    if (known !== undefined) return known
+    const plan = this.plan(items)
+    if (this.#prepared.size >= PREPARED_PLANS) this.#prepared.clear()
+    this.#prepared.set(key, plan)
+    return plan
   }
 
   /**
