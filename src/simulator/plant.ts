@@ -131,9 +131,10 @@ class Plant {
 
   /** A button is a bit that people set and the program resets. */
   #buttons(): void {
-    if (this.#pressed('start') && !this.#is('alarm')) this.#set('running', true)
-    if (this.#pressed('stop')) this.#set('running', false)
     if (this.#pressed('acknowledge')) this.#raise('none')
+    if (this.#pressed('start') && !this.#is('alarm')) this.#set('running', true)
+    // The last word is the stop button's.
+    if (this.#pressed('stop')) this.#set('running', false)
   }
 
   #pressed(button: 'start' | 'stop' | 'acknowledge'): boolean {
