@@ -1,0 +1,283 @@
+/** Lists in the documentation against the lists in the code: what is added there must be said here, and the reverse. */
+import { describe, expect, test } from '@jest/globals'
+import { parse } from 'acorn'
+import { settle } from '../../src/client/options'
+import { parseItem } from '../../src/client/plan'
+import { commands } from '../../src/melsec/commands/commands'
+import { devices } from '../../src/melsec/device'
+import { explainEndCode } from '../../src/melsec/end-code'
+import { limitsOf } from '../../src/melsec/limit'
+import { doubtOf, lackOf, profileIds, profiles } from '../../src/melsec/profile'
+import { faultKinds } from '../../src/simulator/fault-kinds'
+import { settingsOf } from '../../src/simulator/options'
+import { parseType, typeNames, wordsOf } from '../../src/value/value'
+import { filesBelow, isNode, nodesOf, parseTypeScript, readText, type SyntaxNode, textOf } from '../support/syntax'
+import { codeOf, codeSpansOf, proseOf, tableAfter, tablesAfter } from './markdown'
+
+/** The names in the first column of the table behind a mark. */
+function namesIn(page: string, mark: string): string[] {
+  return tableAfter(page, mark).map(([cell]) => codeOf(cell) ?? '')
+}
+
+/** Names of the members of an interface. */
+function membersOf(path: string, name: string): string[] {
+  const found = [...nodesOf(parseTypeScript(readText(path)))].find(
+    (node) => node.type === 'TsInterfaceDeclaration' && textOf(node.id) === name,
+  )
+  const body = isNode(found?.body) ? found.body.body : []
+  return (Array.isArray(body) ? body : []).flatMap((member: SyntaxNode) => textOf(member.key) ?? [])
+}
+
+/** The texts of a union of texts. */
+function unionOf(path: string, name: string): string[] {
+  const found = [...nodesOf(parseTypeScript(readText(path)))].filter(
+    (node) => node.type === 'TsTypeAliasDeclaration' && new RegExp(`^${name}$`).test(textOf(node.id) ?? ''),
+  )
+  return found.flatMap((alias) =>
+    [...nodesOf(alias.typeAnnotation)].flatMap((node) => (node.type === 'StringLiteral' ? (textOf(node) ?? []) : [])),
+  )
+}
+
+describe('options', () => {
+  test('of the client are those in docs/client.md', () => {
+    expect(namesIn('docs/client.md', 'options: client').sort()).toEqual(
+      membersOf('src/client/options.ts', 'MelsecClientOptions').sort(),
+    )
+  })
+
+  test('of the client have the defaults in docs/client.md', () => {
+    const { first, longest, profile, ...settings } = settle({ host: 'plc', port: 5010 })
+    const shown = tableAfter('docs/client.md', 'options: client').flatMap(([name, usual, meaning]) => {
+      const text = codeOf(usual)
+      return text === undefined ? [] : [{ name: codeOf(name) ?? '', text, meaning }]
+    })
+    const values: Readonly<Record<string, unknown>> = { ...settings, profile: profile.id }
+    expect(shown.length).toBeGreaterThan(8)
+    for (const { name, text } of shown) {
+      const value = values[name]
+      expect(`${name} ${text}`).toBe(`${name} ${typeof value === 'object' ? JSON.stringify(value) : String(value)}`)
+    }
+    expect(proseOf('docs/client.md')).toContain(`{ first: ${first}, longest: ${longest} }`)
+  })
+
+  test('of the simulator are those in docs/simulator.md, with their defaults', () => {
+    const rows = tableAfter('docs/simulator.md', 'options: simulator')
+    expect(rows.map(([name]) => codeOf(name)).sort()).toEqual(
+      membersOf('src/simulator/options.ts', 'PlcSimulatorOptions').sort(),
+    )
+    const settings: Readonly<Record<string, unknown>> = { ...settingsOf({}), profile: settingsOf({}).profile.id }
+    for (const [name, usual] of rows) {
+      const text = codeOf(usual)
+      if (text !== undefined) expect(`${name} ${text}`).toBe(`${name} ${String(settings[codeOf(name) ?? ''])}`)
+    }
+  })
+
+  test('of a profile that users may set are in docs/client.md', () => {
+    const named = codeSpansOf(proseOf('docs/client.md').split('### Profile overrides')[1] ?? '')
+    expect(named).toEqual(expect.arrayContaining(membersOf('src/melsec/profile.ts', 'ProfileOverrides')))
+  })
+})
+
+describe('lists', () => {
+  test('fault kinds and their parameters are those in docs/simulator.md', () => {
+    const shown = tableAfter('docs/simulator.md', 'faults').map(([kind, , names]) => [
+      codeOf(kind),
+      codeSpansOf(names ?? ''),
+    ])
+    expect(shown).toEqual(Object.entries(faultKinds).map(([kind, { parameters }]) => [kind, Object.keys(parameters)]))
+  })
+
+  test('events of the simulator are in docs/simulator.md', () => {
+    const row = tableAfter('docs/simulator.md', 'members').find(([member]) => member?.startsWith('`on(') === true)
+    expect(codeSpansOf(row?.[1] ?? '').sort()).toEqual(membersOf('src/simulator/server.ts', 'SimulatorEvents').sort())
+  })
+
+  test('codes of errors are those in docs/errors.md', () => {
+    const rows = [...proseOf('docs/errors.md').matchAll(/^\| `([A-Z_]+)` /gm)].map(([, code]) => code)
+    expect([...rows, 'END_CODE'].sort()).toEqual(unionOf('src/errors.ts', '\\w+ErrorCode').sort())
+  })
+
+  test('end codes in docs/errors.md have a text of their own', () => {
+    const codes = namesIn('docs/errors.md', 'end codes')
+    expect(codes.length).toBeGreaterThan(15)
+    expect(codes.filter((code) => explainEndCode(Number.parseInt(code, 16))?.exact !== true)).toEqual([])
+  })
+
+  test('states of a connection are those in docs/client.md', () => {
+    expect(namesIn('docs/client.md', 'states').sort()).toEqual(
+      unionOf('src/client/supervisor.ts', 'ConnectionStateName').sort(),
+    )
+  })
+
+  test('statistics are those in docs/client.md', () => {
+    expect(namesIn('docs/client.md', 'statistics').sort()).toEqual(
+      membersOf('src/client/statistics.ts', 'Statistics').sort(),
+    )
+    const spans = codeSpansOf(proseOf('docs/client.md'))
+    expect(spans).toEqual(expect.arrayContaining(membersOf('src/client/statistics.ts', 'RoundTrip')))
+  })
+
+  test('commands that request() takes are in docs/client.md', () => {
+    const [, behind = ''] = proseOf('docs/client.md').split('<!-- commands -->')
+    const [sentence = ''] = behind.trim().split('`describeFields')
+    expect(
+      codeSpansOf(sentence)
+        .filter((name) => name in commands)
+        .sort(),
+    ).toEqual(Object.keys(commands).sort())
+  })
+
+  test('calls of remote control are in docs/client.md', () => {
+    const shown = namesIn('docs/client.md', 'control').flatMap((call) => /^control\.(\w+)/.exec(call)?.[1] ?? [])
+    expect(shown.sort()).toEqual(membersOf('src/client/control.ts', 'Control').sort())
+  })
+
+  test('rooms and what they may import are in docs/architecture.md as in the test of the architecture', () => {
+    const [, block = ''] = readText('test/architecture.test.ts').split('const ROOMS')
+    const [table = ''] = block.split('\n}')
+    const rules = [...table.matchAll(/^ {2}(\w+): \[(.*)\],$/gm)]
+    const wanted = rules.map(([, room, names = '']) => [room, [...names.matchAll(/'(\w+)'/g)].map(([, name]) => name)])
+    expect(wanted.length).toBeGreaterThan(8)
+    const shown = tableAfter('docs/architecture.md', 'rooms').map(([room, names]) => [
+      codeOf(room),
+      codeSpansOf(names ?? ''),
+    ])
+    expect(shown).toEqual(wanted)
+  })
+})
+
+describe('addresses', () => {
+  test('devices are those in docs/addresses.md', () => {
+    const units = { bit: 'bit', word: 'word', doubleWord: 'double word' }
+    const radices = { 8: 'octal', 10: 'decimal', 16: 'hexadecimal' }
+    const wanted = devices.map(({ name, title, unit, radix, octal }) => [
+      name,
+      title,
+      units[unit],
+      octal === true ? 'octal or hexadecimal' : radices[radix],
+    ])
+    const shown = tableAfter('docs/addresses.md', 'devices').map(([name, ...cells]) => [codeOf(name), ...cells])
+    expect(shown).toEqual(wanted)
+  })
+
+  test('types are those in docs/addresses.md, with their words', () => {
+    const rows = tableAfter('docs/addresses.md', 'types')
+    expect(rows.map(([type]) => (codeOf(type) ?? '').replace('(n)', ''))).toEqual([...typeNames])
+    for (const [type = '', words = ''] of rows) {
+      if (!/^\d+$/.test(words)) continue
+      expect(`${type} ${words}`).toBe(`${type} ${wordsOf(parseType(codeOf(type) ?? ''))}`)
+    }
+    expect(wordsOf(parseType('STRING(7)'))).toBe(4)
+    expect(wordsOf(parseType('WSTRING(7)'))).toBe(7)
+  })
+
+  test.each([8, 16] as const)('spellings are accepted where X and Y have radix %d', (xyRadix) => {
+    const items = tablesAfter('docs/addresses.md', `accepted: xyRadix ${xyRadix}`).flat()
+    const texts = items.flatMap(([address]) => codeOf(address) ?? [])
+    expect(texts.length).toBeGreaterThan(2)
+    for (const text of texts) expect(() => parseItem(text, { xyRadix })).not.toThrow()
+  })
+
+  test('spellings that are said to be refused are refused', () => {
+    const texts = namesIn('docs/addresses.md', 'refused: xyRadix 16')
+    expect(texts.length).toBeGreaterThan(10)
+    for (const text of texts) expect(() => parseItem(text, { xyRadix: 16 })).toThrow()
+  })
+})
+
+describe('profiles', () => {
+  test('are those in docs/client.md, with frames, monitor and limits', () => {
+    const wanted = profileIds.map((id) => {
+      const profile = profiles[id]
+      const frames = [profile.frame, ...profile.frames.filter((frame) => frame !== profile.frame)].join(', ')
+      const commandsOfLimits = ['readWords', 'readBits', 'readRandom'] as const
+      const limits = commandsOfLimits.map((name) => limitsOf(profile, name, profile.form, 'binary')[0]?.max)
+      const monitor = lackOf(profile, 'entryMonitorDevice')
+        ? 'no'
+        : doubtOf(profile, 'entryMonitorDevice')
+          ? 'perhaps'
+          : 'yes'
+      return [id, frames, monitor, limits.join(', ')]
+    })
+    const shown = tableAfter('docs/client.md', 'profiles').map(([id, , , ...rest]) => [codeOf(id), ...rest])
+    expect(shown).toEqual(wanted)
+  })
+
+  test('can what the README says', () => {
+    const rows = new Map(tableAfter('README.md', 'support').map(([what = '', ...cells]) => [what, cells]))
+    const families = ['iq-r', 'iq-f', 'q', 'l'] as const
+    const said = (what: string, answer: (profile: (typeof profiles)[(typeof families)[number]]) => string) =>
+      expect([what, rows.get(what)]).toEqual([what, families.map((id) => answer(profiles[id]))])
+    const command = (name: keyof typeof commands) => (profile: (typeof profiles)['q']) =>
+      lackOf(profile, name) ? 'no' : doubtOf(profile, name) ? 'some ports' : 'yes'
+    said('Frames over TCP and UDP', ({ frame, frames }) =>
+      [frame, ...frames.filter((name) => name !== frame)].join(', '),
+    )
+    said('Binary and ASCII code', ({ codes }) => (codes.length === 2 ? 'yes' : 'no'))
+    said('Block read and write', command('readBlock'))
+    said('Monitor registration', command('entryMonitorDevice'))
+    said('Read type name', command('readTypeName'))
+    said('Numbers of X and Y', ({ xyRadix }) => (xyRadix === 8 ? 'octal' : 'hexadecimal'))
+    said('Link direct devices (`J1\\W10`)', ({ extensions }) => (extensions.includes('link') ? 'yes' : 'no'))
+    said('CPU buffer memory (`U3E0\\HG0`)', ({ extensions }) => (extensions.includes('cpu') ? 'yes' : 'no'))
+    said('Long timers and long counters', ({ absentDevices }) => {
+      const [timers, counters] = [!absentDevices.includes('LTN'), !absentDevices.includes('LCN')]
+      return timers && counters ? 'yes' : counters ? 'counters' : 'no'
+    })
+  })
+})
+
+/** The entries of the `defaults` of a node's definition: the name, and the value where it is a text or a number. */
+function settingsOfNode(name: string): (readonly [name: string, usual: string | undefined])[] {
+  const scripts = [...readText(`nodes/${name}.html`).matchAll(/<script type="text\/javascript">([\S\s]*?)<\/script>/g)]
+  const nodes = scripts.flatMap(([, script = '']) => [...nodesOf(parse(script, { ecmaVersion: 'latest' }))])
+  const defaults = nodes.find((node) => node.type === 'Property' && keyOf(node) === 'defaults')?.value
+  return entriesOf(defaults).map((entry) => {
+    const usual = entriesOf(entry.value).find((part) => keyOf(part) === 'value')?.value
+    const text = isNode(usual) && typeof usual.value === 'string' ? usual.value : undefined
+    return [keyOf(entry), text] as const
+  })
+}
+
+function keyOf(entry: SyntaxNode): string {
+  return isNode(entry.key) ? String(entry.key.name ?? entry.key.value) : ''
+}
+
+function entriesOf(node: unknown): readonly SyntaxNode[] {
+  return isNode(node) && Array.isArray(node.properties) ? (node.properties as SyntaxNode[]) : []
+}
+
+describe('nodes', () => {
+  const names = filesBelow('nodes', '.html')
+    .map((path) => /^nodes\/([\w-]+)\.html$/.exec(path)?.[1])
+    .filter((name) => name !== undefined)
+  const pageOf = (name: string) => `docs/nodes/${name.replace('melsec-jw-', '')}.md`
+
+  test.each(names)('%s: its stored properties are those in its page', (name) => {
+    const settings = settingsOfNode(name).map(([setting]) => setting)
+    expect(namesIn(pageOf(name), 'properties').sort()).toEqual(settings.sort())
+  })
+
+  test.each(names)('%s: its defaults are those in its page', (name) => {
+    const shown = new Map(
+      tableAfter(pageOf(name), 'properties').map(([setting, usual]) => [codeOf(setting), codeOf(usual)]),
+    )
+    const wrong = settingsOfNode(name).filter(([setting, usual]) => {
+      const text = shown.get(setting)
+      return text !== undefined ? text !== usual : usual !== undefined && usual !== ''
+    })
+    expect(wrong).toEqual([])
+  })
+
+  test.each(names)('%s is in the README', (name) => {
+    expect(codeSpansOf(proseOf('README.md'))).toContain(name)
+  })
+
+  test('commands of the control node are those in its page', () => {
+    const tree = [...nodesOf(parseTypeScript(readText('nodes/melsec-jw-control.ts')))]
+    const table = tree.find((node) => node.type === 'VariableDeclarator' && textOf(node.id) === 'commands')
+    const keys = [...nodesOf(table?.init)].find(({ type }) => type === 'ObjectExpression')?.properties
+    const named = (keys as SyntaxNode[]).map(({ key }) => textOf(key))
+    expect(namesIn('docs/nodes/control.md', 'commands').sort()).toEqual(named.sort())
+  })
+})

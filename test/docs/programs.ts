@@ -1,0 +1,80 @@
+/** Runs the programs of the documentation as they stand there, against simulated PLCs instead of the reader's. */
+import { format } from 'node:util'
+import * as plc from '../../src/index'
+import type { Fence } from './markdown'
+
+type Module = Readonly<Record<string, unknown>>
+
+const IMPORT = /^import (\{[^}]*\}) from '([^']+)'$/gm
+
+/** Where the reader's PLC would be. */
+const READERS_PORT = 5010
+
+/** Opens simulated PLCs and gives a program the package with its addresses led to them. */
+export class Bench {
+  readonly #simulators = new Map<plc.PlcSimulator, number | undefined>()
+
+  async open(): Promise<void> {
+    const simulator = plc.createPlcSimulator({ profile: 'iq-r', resetAllowed: true })
+    await simulator.listen()
+    fill(simulator)
+    this.#simulators.set(simulator, READERS_PORT)
+  }
+
+  async close(): Promise<void> {
+    await Promise.all([...this.#simulators.keys()].map((simulator) => simulator.close()))
+    this.#simulators.clear()
+  }
+
+  /** @returns what the program printed. */
+  async run({ text }: Fence): Promise<string> {
+    const printed: string[] = []
+    const print = (...values: unknown[]) => void printed.push(format(...values))
+    const body = text.replace(IMPORT, (_, names: string, name: string) => {
+      return `const ${names.replaceAll(' as ', ': ')} = modules[${JSON.stringify(name)}]`
+    })
+    const modules: Readonly<Record<string, Module>> = { '@melsec-jw/plc': this.#package() }
+    const AsyncFunction = Object.getPrototypeOf(async () => {}).constructor as FunctionConstructor
+    const program = new AsyncFunction('modules', 'console', body)
+    await program(modules, { log: print, error: print })
+    return printed.join('\n')
+  }
+
+  #package(): Module {
+    return {
+      ...plc,
+      createMelsecClient: (options: plc.MelsecClientOptions) => plc.createMelsecClient(this.#ledHere(options)),
+      createPlcSimulator: (options: plc.PlcSimulatorOptions = {}) => this.#simulator(options),
+    }
+  }
+
+  /** The port the program asks for may be taken on the machine that runs the tests. */
+  #simulator(options: plc.PlcSimulatorOptions): plc.PlcSimulator {
+    const { tcp, udp } = options
+    const simulator = plc.createPlcSimulator({
+      ...options,
+      tcp: tcp === false ? false : {},
+      udp: udp === false ? false : {},
+    })
+    this.#simulators.set(simulator, tcp === false ? undefined : tcp?.port)
+    return simulator
+  }
+
+  #ledHere(options: plc.MelsecClientOptions): plc.MelsecClientOptions {
+    if (options.openTransport !== undefined) return options
+    const all = [...this.#simulators].reverse()
+    const found = all.find(([simulator, port]) => port === options.port || simulator.tcp?.port === options.port)
+    const endpoint = options.transport === 'udp' ? found?.[0].udp : found?.[0].tcp
+    if (endpoint === undefined) throw new Error(`A program of the documentation asks for port ${options.port}.`)
+    return { ...options, ...endpoint }
+  }
+}
+
+/** The demo plant at one moment: what the programs of the documentation read, standing still. */
+function fill(simulator: plc.PlcSimulator): void {
+  simulator.write('D100:REAL', 71.5)
+  simulator.write('D102:REAL', 38.25)
+  simulator.write('D120:DINT', 1234)
+  simulator.write('M10', true)
+  simulator.write('D130:STRING(20)', 'Apple juice')
+}
