@@ -3,6 +3,7 @@ import { describe, expect, test } from '@jest/globals'
 import { parse } from 'acorn'
 import { settle } from '../../src/client/options'
 import { parseItem } from '../../src/client/plan'
+import * as library from '../../src/index'
 import { commands } from '../../src/melsec/commands/commands'
 import { devices } from '../../src/melsec/device'
 import { explainEndCode } from '../../src/melsec/end-code'
@@ -79,6 +80,11 @@ describe('options', () => {
 })
 
 describe('lists', () => {
+  test('what the library exports is in docs/client.md', () => {
+    const spans = codeSpansOf(proseOf('docs/client.md')).map((span) => /^\w+/.exec(span)?.[0])
+    expect(Object.keys(library).filter((name) => !spans.includes(name))).toEqual([])
+  })
+
   test('fault kinds and their parameters are those in docs/simulator.md', () => {
     const shown = tableAfter('docs/simulator.md', 'faults').map(([kind, , names]) => [
       codeOf(kind),
@@ -260,12 +266,21 @@ describe('nodes', () => {
 
   test.each(names)('%s: its defaults are those in its page', (name) => {
     const shown = new Map(
-      tableAfter(pageOf(name), 'properties').map(([setting, usual]) => [codeOf(setting), codeOf(usual)]),
+      tableAfter(pageOf(name), 'properties').map(([setting, , usual]) => [codeOf(setting), codeOf(usual)]),
     )
     const wrong = settingsOfNode(name).filter(([setting, usual]) => {
       const text = shown.get(setting)
       return text !== undefined ? text !== usual : usual !== undefined && usual !== ''
     })
+    expect(wrong).toEqual([])
+  })
+
+  test.each(names)('%s: its labels are those in its page', (name) => {
+    const catalogue = JSON.parse(readText(`nodes/locales/en-US/${name}.json`)) as { label: Record<string, string> }
+    const rows = tableAfter(pageOf(name), 'properties').map(
+      ([setting, label]) => [codeOf(setting) ?? '', label] as const,
+    )
+    const wrong = rows.filter(([setting, label]) => label !== (catalogue.label[setting] ?? '–'))
     expect(wrong).toEqual([])
   })
 
