@@ -1,6 +1,6 @@
-import type { PlcError } from '../errors'
-import { ClosedError } from '../errors'
+import { ClosedError, type PlcError, RequestError } from '../errors'
 import type { BodyLength, Exchange, Job, ResponseFrame } from '../link/link'
+import { asPlcError } from './failure'
 
 /** What every call may say. */
 export interface CallOptions {
@@ -9,11 +9,33 @@ export interface CallOptions {
   readonly signal?: AbortSignal
 }
 
+/** A call may wait for a day, as the option `timeout` of the client. */
+const LONGEST = 24 * 60 * 60 * 1000
+
+/**
+ * What is wrong with the options of a call. Programs without types pass texts and NaN, and a deadline made of those is
+ * never reached.
+ */
+export function optionProblem(options: CallOptions): RequestError | undefined {
+  if (typeof options !== 'object' || options === null) {
+    return new RequestError('BAD_OPTION', 'The options of a call are an object, e.g. { timeout: 1000 }.', 'options')
+  }
+  const { timeout, signal } = options
+  if (timeout !== undefined && !(typeof timeout === 'number' && timeout > 0 && timeout <= LONGEST)) {
+    const message = `timeout is ${String(timeout)}; it must be a number of milliseconds, more than 0 and at most ${LONGEST}.`
+    return new RequestError('BAD_OPTION', message, 'timeout')
+  }
+  if (signal !== undefined && typeof signal?.addEventListener !== 'function') {
+    return new RequestError('BAD_OPTION', 'signal is no AbortSignal: use the signal of an AbortController.', 'signal')
+  }
+  return undefined
+}
+
 /** What happens to the caller's promise. */
 export interface Settle<Head> {
   /** Reads the answer; throws what it turned out to be instead. `undefined`: nothing was asked (only connecting). */
   readonly answer: (frame: ResponseFrame<Head> | undefined) => void
-  readonly fail: (error: unknown) => void
+  readonly fail: (error: PlcError) => void
 }
 
 /** One request of the caller: the job the session carries. Settled exactly once. */
@@ -53,12 +75,13 @@ export class Call<Head> implements Job<Head> {
   }
 
   /** Settles with the answer. @returns the error the answer turned out to be, if any. */
-  answer(frame: ResponseFrame<Head> | undefined): unknown {
+  answer(frame: ResponseFrame<Head> | undefined): PlcError | undefined {
     if (!this.#finish()) return undefined
     try {
       this.#settle.answer(frame)
       return undefined
-    } catch (error) {
+    } catch (thrown) {
+      const error = asPlcError(thrown)
       this.#settle.fail(error)
       return error
     }

@@ -1,68 +1,25 @@
 // One connection to one PLC, in the background: joins the pure parts (supervisor, session) with a transport and the
 // clock, and gives promises. It knows no protocol family; Exchange and Framing bring that.
-import { ClosedError, type ConnectionError, EndCodeError, endsConnection, PlcError } from '../errors'
 import {
-  type Exchange,
-  type Framing,
-  type RequestFrame,
-  type ResponseFrame,
-  Session,
-  type SessionEvent,
-} from '../link/link'
+  ClosedError,
+  type ConnectionError,
+  EndCodeError,
+  endsConnection,
+  type PlcError,
+  ProtocolError,
+} from '../errors'
+import { type Exchange, type ResponseFrame, SerialNumbers, Session, type SessionEvent } from '../link/link'
 import type { Clock } from '../transport/clock'
-import type { OpenTransport, Transport } from '../transport/transport'
-import { Call, type CallOptions } from './call'
+import type { Transport } from '../transport/transport'
+import { Alarm } from './alarm'
+import { Call, type CallOptions, optionProblem, type Settle } from './call'
+import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
 import * as failure from './failure'
 import { Counters, type Statistics } from './statistics'
-import { type ConnectionStateName, Supervisor, type SupervisorOptions } from './supervisor'
+import { Supervisor } from './supervisor'
+import { tell } from './tell'
 
-/** A frame as it went over the wire. */
-export interface TracedFrame {
-  /** Milliseconds since 1970. */
-  readonly time: number
-  readonly direction: 'sent' | 'received'
-  readonly bytes: Buffer
-}
-
-/** The state of a connection, for people and programs. */
-export interface ConnectionState {
-  readonly name: ConnectionStateName
-  /** Milliseconds since 1970. */
-  readonly since: number
-  /** Attempts since the last connection that worked. */
-  readonly attempt: number
-  /** Why there is no connection. */
-  readonly error?: PlcError
-  /** Milliseconds since 1970: when the next attempt starts. */
-  readonly nextAttempt?: number
-}
-
-/** What is known about a silence, for whoever explains it. */
-export interface Silence {
-  /** What was tried, e.g. `tcp 192.168.3.39:5007`. */
-  readonly peer: string
-  /** Whether this PLC ever answered this client. */
-  readonly answeredBefore: boolean
-}
-
-export interface ConnectionOptions<Head> {
-  readonly framing: Framing<Head>
-  readonly openTransport: OpenTransport
-  readonly clock: Clock
-  readonly supervisor: SupervisorOptions
-  readonly inFlight: number
-  readonly queueLimit: number
-  /** ms */
-  readonly connectTimeout: number
-  /** Default deadline of a call, ms. */
-  readonly timeout: number
-  /** The first request on a new connection. Any answer to it, also a refusal, proves that the PLC is there. */
-  readonly probe: () => Exchange<Head, unknown>
-  /** Ranked causes, most likely first. */
-  readonly explainSilence: (silence: Silence) => readonly string[]
-  readonly onState: (state: ConnectionState) => void
-  readonly onUnsolicited: (frame: RequestFrame<Head>) => void
-}
+export type { ConnectionOptions, ConnectionState, Silence, TracedFrame } from './connection-options'
 
 /** Requests without any answer in a row after which the connection counts as dead, although nobody closed it. */
 const SILENT_REQUESTS = 2
@@ -72,18 +29,19 @@ export class Connection<Head> {
   readonly #clock: Clock
   readonly #supervisor: Supervisor
   readonly #counters = new Counters()
+  readonly #serials: SerialNumbers
+  readonly #alarm: Alarm
   /** Calls that wait for the connection. */
   #held: Call<Head>[] = []
   #transport: Transport | undefined
   #session: Session<Head, Call<Head>> | undefined
   #probe: Call<Head> | undefined
-  #cancelTimer: (() => void) | undefined
-  #timerAt = Number.POSITIVE_INFINITY
   #attemptDeadline: number | undefined
   #answeredBefore = false
   #silent = 0
   #receivedInAttempt = false
   #since: number
+  #generation = 0
   /** Set by the owner to see every frame; costs nothing while unset. */
   onTrace: ((frame: TracedFrame) => void) | undefined
 
@@ -91,6 +49,8 @@ export class Connection<Head> {
     this.#options = options
     this.#clock = options.clock
     this.#supervisor = new Supervisor(options.supervisor)
+    this.#serials = new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000))
+    this.#alarm = new Alarm(options.clock, () => this.#guard(() => this.#timeout()))
     this.#since = options.clock.time()
   }
 
@@ -105,17 +65,22 @@ export class Connection<Head> {
     }
   }
 
+  /** Counts the connections that worked: what the PLC remembers per connection is gone when this changes. */
+  get generation(): number {
+    return this.#generation
+  }
+
   get statistics(): Statistics {
     return this.#counters.read(this.#held.length + (this.#session?.queued ?? 0), this.#session?.inFlight ?? 0)
   }
 
   /** Sends a request when its turn comes and resolves with its answer. Every rejection is a `PlcError`. */
   request<T>(exchange: Exchange<Head, T>, options: CallOptions = {}): Promise<T> {
-    return new Promise<T>((resolve, reject) => {
+    return new Promise<T>((resolve, fail) => {
       const answer = (frame: ResponseFrame<Head> | undefined) => {
         if (frame !== undefined) resolve(exchange.decode(frame))
       }
-      this.#submit(new Call(exchange, this.#deadline(options), { answer, fail: reject }), options.signal)
+      this.#submit(exchange, { answer, fail }, options, this.#options.timeout, true)
     })
   }
 
@@ -123,28 +88,33 @@ export class Connection<Head> {
   connect(options: CallOptions = {}): Promise<void> {
     if (this.#supervisor.name === 'connected') return Promise.resolve()
     const exchange = { ...this.#options.probe(), title: 'Connecting' }
-    return new Promise<void>((resolve, reject) => {
-      // It only waits: what proves the connection is the attempt's own probe.
-      this.#submit(
-        new Call(exchange, this.#deadline(options), { answer: () => resolve(), fail: reject }, false),
-        options.signal,
-      )
+    // Longer than an attempt can take, so that it ends with the attempt's own reason.
+    const { connectTimeout, supervisor } = this.#options
+    const timeout = 2 * connectTimeout + supervisor.settleGap + 1
+    // It only waits: what proves the connection is the attempt's own probe.
+    return new Promise<void>((resolve, fail) => {
+      this.#submit(exchange, { answer: () => resolve(), fail }, options, timeout, false)
     })
   }
 
-  #deadline(options: CallOptions): number {
-    return this.#clock.now() + (options.timeout ?? this.#options.timeout)
-  }
-
-  #submit(call: Call<Head>, signal: AbortSignal | undefined): void {
-    const refusal = this.#refusalOf(call.exchange, signal)
+  #submit(
+    exchange: Exchange<Head, unknown>,
+    settle: Settle<Head>,
+    options: CallOptions,
+    usual: number,
+    sends: boolean,
+  ): void {
+    const refusal = optionProblem(options) ?? this.#refusalOf(exchange, options.signal)
     if (refusal !== undefined) {
-      call.fail(refusal)
+      settle.fail(refusal)
       return
     }
-    if (call.sends) this.#counters.add('requests')
-    if (signal !== undefined) call.watch(signal, () => this.#abort(call))
-    this.#start(call, this.#clock.now())
+    const { timeout = usual, signal } = options
+    const now = this.#clock.now()
+    const call = new Call(exchange, now + timeout, settle, sends)
+    if (sends) this.#counters.add('requests')
+    if (signal !== undefined) call.watch(signal, () => this.#guard(() => this.#abort(call)))
+    this.#guard(() => this.#start(call, now))
   }
 
   #refusalOf({ title }: Exchange<Head, unknown>, signal: AbortSignal | undefined): PlcError | undefined {
@@ -174,35 +144,32 @@ export class Connection<Head> {
     if (this.#supervisor.name === 'closed') return
     this.#supervisor.close()
     const session = this.#session
-    const calls = this.#held
+    const held = this.#held
     this.#held = []
     this.#dropTransport()
+    this.#alarm.cancel()
     session?.disconnected()
     if (session !== undefined) this.#closeCalls(session)
-    for (const call of calls) this.#closed(call, 'notSent')
-    this.#cancelTimer?.()
-    this.#cancelTimer = undefined
+    for (const call of held) call.fail(failure.closedMeanwhile(call, 'notSent'))
     this.#tellState()
   }
 
   #closeCalls(session: Session<Head, Call<Head>>): void {
     for (let event = session.poll(); event !== undefined; event = session.poll()) {
       if (event.kind !== 'done') continue
-      const sent = event.outcome.kind === 'disconnected' && event.outcome.sent
-      this.#closed(event.job, sent ? 'unknown' : 'notSent')
+      const { job, outcome } = event
+      // An answer that arrived just before is one all the same.
+      if (outcome.kind === 'answered') job.answer(outcome.frame)
+      else job.fail(failure.closedMeanwhile(job, outcome.kind === 'failed' || outcome.sent ? 'unknown' : 'notSent'))
     }
-  }
-
-  #closed(call: Call<Head>, outcome: 'notSent' | 'unknown'): void {
-    call.fail(failure.closedMeanwhile(call.exchange.title, outcome))
   }
 
   #abort(call: Call<Head>): void {
     const held = this.#held.indexOf(call)
-    let sent = false
     if (held >= 0) this.#held.splice(held, 1)
-    else sent = this.#session?.abandon(call, this.#clock.now()) ?? false
-    this.#counters.add('aborted')
+    // A call that nobody knows any more has just been settled in the session: only "unknown" is certain to be true.
+    const sent = held < 0 && (this.#session?.abandon(call, this.#clock.now()) ?? true)
+    if (call.sends) this.#counters.add('aborted')
     call.fail(call.aborted(sent ? 'unknown' : 'notSent'))
     this.#flush()
   }
@@ -219,24 +186,42 @@ export class Connection<Head> {
     try {
       transport = this.#options.openTransport()
     } catch (error) {
-      this.#lost(asPlcError(error))
+      this.#lost(failure.asPlcError(error))
       return
     }
     this.#transport = transport
     this.#tellState()
     // A transport that was given up may still have a callback under way: only the present one is listened to.
-    const present = () => this.#transport === transport
-    transport.open({
-      opened: () => present() && this.#opened(transport),
-      received: (bytes) => present() && this.#received(bytes),
-      closed: (error) => present() && this.#disconnected(error),
-    })
+    const present = (run: () => void) => {
+      if (this.#transport === transport) this.#guard(run)
+    }
+    present(() =>
+      transport.open({
+        opened: () => present(() => this.#opened(transport)),
+        received: (bytes) => present(() => this.#received(bytes)),
+        closed: (error) => present(() => this.#disconnected(error)),
+      }),
+    )
+    this.#schedule()
+  }
+
+  /** Anything that is thrown here is a bug of this package; the machine beside us must not lose its program to it. */
+  #guard(run: () => void): void {
+    try {
+      run()
+    } catch (error) {
+      this.#lost(failure.asPlcError(error))
+    }
   }
 
   #opened(transport: Transport): void {
     const now = this.#clock.now()
     const { framing, inFlight, timeout, connectTimeout } = this.#options
-    this.#session = new Session<Head, Call<Head>>(framing, { kind: transport.kind, window: inFlight })
+    this.#session = new Session<Head, Call<Head>>(framing, {
+      kind: transport.kind,
+      window: inFlight,
+      serials: this.#serials,
+    })
     const exchange = this.#options.probe()
     // Nobody awaits the probe; how it ends is seen in #answered and #timedOut.
     this.#probe = new Call(exchange, now + Math.min(timeout, connectTimeout), {
@@ -253,24 +238,19 @@ export class Connection<Head> {
   #received(bytes: Buffer): void {
     this.#receivedInAttempt = true
     this.#counters.add('bytesReceived', bytes.length)
-    this.onTrace?.({ time: this.#clock.time(), direction: 'received', bytes })
-    try {
-      this.#session?.receive(bytes, this.#clock.now())
-    } catch (error) {
-      // Anything but a ProtocolError here is a bug of this package; the machine beside us must not lose its program to it.
-      this.#lost(asPlcError(error))
-    }
+    this.#trace('received', bytes)
+    this.#session?.receive(bytes, this.#clock.now())
     this.#flush()
   }
 
   #disconnected(error: ConnectionError | undefined): void {
-    this.#counters.add('disconnects')
     this.#lost(error ?? failure.closedByPeer(this.#peer(), this.#receivedInAttempt))
   }
 
   #verified(): void {
     this.#probe = undefined
     this.#answeredBefore = true
+    this.#generation += 1
     this.#supervisor.connected(this.#clock.now())
     this.#tellState()
     const held = this.#held
@@ -290,11 +270,17 @@ export class Connection<Head> {
   }
 
   #lost(error: PlcError, pauseAtLeast = 0): void {
+    if (this.#supervisor.name === 'closed') return
     const session = this.#session
+    const probe = this.#probe
+    const rest = session !== undefined && session.inFlight > 0 ? this.#restOfPort() : 0
     this.#dropTransport()
-    this.#supervisor.lost(error, this.#clock.now(), pauseAtLeast)
-    session?.disconnected()
-    if (session !== undefined) this.#settleLost(session, error)
+    this.#supervisor.lost(error, this.#clock.now(), Math.max(pauseAtLeast, rest))
+    if (session !== undefined) {
+      this.#counters.add('disconnects')
+      session.disconnected()
+      this.#settleLost(session, probe, error)
+    }
     if (!this.#supervisor.hopeful) {
       const held = this.#held
       this.#held = []
@@ -304,20 +290,39 @@ export class Connection<Head> {
     this.#schedule()
   }
 
-  #settleLost(session: Session<Head, Call<Head>>, reason: PlcError): void {
+  /**
+   * How long the local port must be left alone when a request on it has no answer: on a fixed port a late answer still
+   * arrives, and without a serial number it would be taken for the next one.
+   */
+  #restOfPort(): number {
+    const { framing, timeout } = this.#options
+    if (this.#transport?.kind !== 'datagram' || framing.correlation === 'serial') return 0
+    try {
+      return this.#transport.renew() ? 0 : timeout
+    } catch {
+      // Closed by the system, because nothing receives on the PLC's port: then nothing answers from there either.
+      return 0
+    }
+  }
+
+  #settleLost(session: Session<Head, Call<Head>>, probe: Call<Head> | undefined, reason: PlcError): void {
     for (let event = session.poll(); event !== undefined; event = session.poll()) {
-      if (event.kind !== 'done') continue
+      if (event.kind === 'drop' || event.kind === 'renew') continue
+      if (event.kind !== 'done' || event.outcome.kind !== 'disconnected') {
+        this.#take(event)
+        continue
+      }
       const { job, outcome } = event
-      if (outcome.kind !== 'disconnected') this.#settle(event)
-      else if (outcome.sent) this.#settleUnknown(job, reason)
+      if (job === probe) continue
+      if (outcome.sent) this.#settleUnknown(job, reason)
       else if (this.#supervisor.hopeful) this.#held.push(job)
       else job.fail(failure.offline(job.exchange.title, reason))
     }
   }
 
   #settleUnknown(call: Call<Head>, reason: PlcError): void {
-    if (call.exchange.answered) call.fail(failure.lostInFlight(call.exchange.title, reason))
-    else this.#takeAsDone(call)
+    if (!call.exchange.answered && failure.isSuccessOfReset(reason)) this.#takeAsDone(call)
+    else call.fail(failure.lostInFlight(call.exchange.title, reason))
   }
 
   /** A command that is not answered when it succeeds (Remote Reset): silence and a lost connection are its success. */
@@ -344,12 +349,16 @@ export class Connection<Head> {
 
   #send(bytes: Buffer): void {
     this.#counters.add('bytesSent', bytes.length)
-    this.onTrace?.({ time: this.#clock.time(), direction: 'sent', bytes })
+    this.#trace('sent', bytes)
     try {
       this.#transport?.send(bytes)
     } catch (error) {
-      this.#lost(asPlcError(error))
+      this.#lost(failure.asPlcError(error))
     }
+  }
+
+  #trace(direction: TracedFrame['direction'], bytes: Buffer): void {
+    if (this.onTrace !== undefined) tell(this.onTrace, { time: this.#clock.time(), direction, bytes })
   }
 
   #take(event: SessionEvent<Head, Call<Head>>): void {
@@ -358,16 +367,18 @@ export class Connection<Head> {
         this.#settle(event)
         return
       case 'unsolicited':
-        this.#options.onUnsolicited(event.frame)
+        tell(this.#options.onUnsolicited, event.frame)
         return
       case 'stale':
+        // Too late for its request, but the PLC is alive.
+        this.#silent = 0
         this.#counters.add('stale')
         return
       case 'renew':
         this.#renew(event.reason)
         return
       case 'drop':
-        this.#counters.add('disconnects')
+        if (event.error instanceof ProtocolError) this.#counters.add('protocolErrors')
         this.#lost(event.error)
         return
       default:
@@ -382,45 +393,37 @@ export class Connection<Head> {
   }
 
   #settle({ job, outcome, sentAt }: Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>): void {
-    switch (outcome.kind) {
-      case 'answered':
-        this.#answered(job, outcome.frame, sentAt)
-        return
-      case 'timedOut':
-        this.#timedOut(job, outcome.sent)
-        return
-      case 'failed':
-        this.#counters.add('protocolErrors')
-        job.fail(outcome.error)
-        return
-      case 'disconnected':
-        // Only `disconnected()` gives this outcome, and #settleLost and #closeCalls take it there.
-        return
-      default:
-        outcome satisfies never
-    }
+    if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
+    else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
+    // `disconnected` is met by #settleLost and #closeCalls only.
+    else if (outcome.kind === 'failed') job.fail(outcome.error)
   }
 
   #answered(job: Call<Head>, frame: ResponseFrame<Head>, sentAt: number | undefined): void {
+    const isProbe = job === this.#probe
     this.#silent = 0
-    this.#counters.add('answered')
-    if (sentAt !== undefined) this.#counters.roundTrip(this.#clock.now() - sentAt)
     const error = job.answer(frame)
-    if (error instanceof EndCodeError) this.#counters.add('refused')
-    else if (error instanceof PlcError && endsConnection(error, this.#options.framing.correlation)) {
+    if (!isProbe) {
+      this.#counters.add('answered')
+      if (error instanceof EndCodeError) this.#counters.add('refused')
+      if (sentAt !== undefined) this.#counters.roundTrip(this.#clock.now() - sentAt)
+    }
+    if (error !== undefined && endsConnection(error, this.#options.framing.correlation)) {
       this.#counters.add('protocolErrors')
       this.#lost(error)
-      return
-    }
-    if (job === this.#probe) this.#verified()
+    } else if (isProbe) this.#verified()
+    else this.#supervisor.proved()
   }
 
   #timedOut(job: Call<Head>, sent: boolean): void {
+    const isProbe = job === this.#probe
     if (sent && !job.exchange.answered) {
       this.#takeAsDone(job)
+      // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.
+      this.#lost(failure.reset(this.#peer()), this.#restOfPort())
       return
     }
-    this.#counters.add('timeouts')
+    if (!isProbe) this.#counters.add('timeouts')
     if (!sent) {
       job.fail(failure.notSentInTime(job.exchange.title))
       return
@@ -430,8 +433,17 @@ export class Connection<Head> {
     job.fail(error)
     this.#silent += 1
     // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
-    if (job !== this.#probe && this.#silent < SILENT_REQUESTS) return
-    this.#lost(failure.silent(this.#peer(), causes, error))
+    if (isProbe || this.#silent >= SILENT_REQUESTS) {
+      this.#lost(failure.silent(this.#peer(), causes, error), this.#restOfPort())
+    }
+  }
+
+  /** A call that waited for the connection in vain. */
+  #notConnected(call: Call<Head>): void {
+    if (call.sends) this.#counters.add('timeouts')
+    const open = this.#session !== undefined
+    const attempt = { peer: this.#peer(), open, causes: open ? this.#causes() : [], reason: this.#supervisor.error }
+    call.fail(failure.notConnectedInTime(call.sends ? call.exchange.title : undefined, attempt))
   }
 
   #peer(): string {
@@ -444,23 +456,11 @@ export class Connection<Head> {
 
   #tellState(): void {
     this.#since = this.#clock.time()
-    this.#options.onState(this.state)
+    tell(this.#options.onState, this.state)
   }
 
-  /**
-   * Sets the one timer to the next thing that is due. A timer that would fire earlier than needed is left alone, so
-   * that steady traffic does not set a timer per request.
-   */
   #schedule(): void {
-    const due = this.#nextTimeout()
-    if (due === undefined || due >= this.#timerAt) return
-    this.#cancelTimer?.()
-    this.#timerAt = due
-    this.#cancelTimer = this.#clock.timer(Math.max(0, due - this.#clock.now()), () => {
-      this.#timerAt = Number.POSITIVE_INFINITY
-      this.#cancelTimer = undefined
-      this.#timeout()
-    })
+    if (this.#supervisor.name !== 'closed') this.#alarm.set(this.#nextTimeout())
   }
 
   #nextTimeout(): number | undefined {
@@ -478,7 +478,7 @@ export class Connection<Head> {
     const now = this.#clock.now()
     for (const call of this.#held.filter((held) => held.deadline <= now)) {
       this.#held.splice(this.#held.indexOf(call), 1)
-      this.#timedOut(call, false)
+      this.#notConnected(call)
     }
     if (this.#attemptDeadline !== undefined && this.#attemptDeadline <= now) {
       this.#lost(failure.connectTimedOut(this.#peer(), this.#options.connectTimeout))
@@ -488,8 +488,4 @@ export class Connection<Head> {
     this.#flush()
     this.#schedule()
   }
-}
-
-function asPlcError(error: unknown): PlcError {
-  return error instanceof PlcError ? error : failure.unexpected(error)
 }

@@ -1,5 +1,5 @@
 // The errors of a connection, with what to do about them.
-import { ClosedError, ConnectionError, type PlcError, TimeoutError } from '../errors'
+import { ClosedError, ConnectionError, PlcError, TimeoutError } from '../errors'
 
 /** No connection now, and not the first attempt: fail at once instead of letting every call run into its deadline. */
 export function offline(title: string, reason: PlcError | undefined): ConnectionError {
@@ -13,7 +13,8 @@ export function closedBeforeSending(title: string): ClosedError {
   return new ClosedError('CLOSED', `${title} was not sent: the client is closed.`)
 }
 
-export function closedMeanwhile(title: string, outcome: 'notSent' | 'unknown'): ClosedError {
+export function closedMeanwhile(call: { exchange: { title: string } }, outcome: 'notSent' | 'unknown'): ClosedError {
+  const { title } = call.exchange
   const what = outcome === 'notSent' ? 'was not sent' : 'was in flight'
   return new ClosedError('CLOSED', `${title} ${what} when the client was closed.`, outcome)
 }
@@ -40,18 +41,46 @@ export function lostInFlight(title: string, reason: PlcError): ConnectionError {
 }
 
 export function connectTimedOut(peer: string, ms: number): ConnectionError {
-  const message = `${peer} did not accept a connection within ${ms} ms. Check address, port, cable and whether the PLC is powered.`
-  return new ConnectionError('CONNECT_FAILED', message)
+  const causes = ['the PLC is off or its cable is unplugged', 'wrong IP address', 'a firewall drops the packets']
+  const message = `${peer} did not accept a connection within ${ms} ms. Likely: ${causes.join('; ')}`
+  return new ConnectionError('CONNECT_FAILED', message, 'notSent', undefined, causes)
 }
 
+/** Requests before it took too long. */
 export function notSentInTime(title: string): TimeoutError {
-  const message = `${title} was not sent before its deadline: the connection or earlier requests took too long.`
-  return new TimeoutError(message, 'notSent')
+  return new TimeoutError(`${title} was not sent before its deadline: earlier requests took too long.`, 'notSent')
+}
+
+/** Where an attempt to connect stands. */
+export interface Attempt {
+  readonly peer: string
+  /** There is a connection, but the PLC has not answered on it yet. */
+  readonly open: boolean
+  /** Ranked causes of the silence, most likely first. */
+  readonly causes: readonly string[]
+  /** Why the connection before it was lost. */
+  readonly reason: PlcError | undefined
+}
+
+/** The connection took too long. `title` is undefined for a call that only waits for the connection. */
+export function notConnectedInTime(title: string | undefined, attempt: Attempt): TimeoutError {
+  const { peer, open, causes, reason } = attempt
+  const what = title === undefined ? 'Connecting took longer than allowed' : `${title} was not sent before its deadline`
+  const state = open ? `${peer} has not answered yet` : `there is no connection to ${peer} yet`
+  const before = reason === undefined ? '' : ` ${reason.message}`
+  return new TimeoutError(`${what}: ${state}.${mostLikely(causes)}${before}`, 'notSent', causes)
+}
+
+function mostLikely(causes: readonly string[]): string {
+  return causes[0] === undefined ? '' : ` Most likely: ${causes[0]}`
 }
 
 export function noAnswer(title: string, peer: string, causes: readonly string[]): TimeoutError {
-  const likely = causes[0] === undefined ? '' : ` Most likely: ${causes[0]}`
-  return new TimeoutError(`${title}: no answer from ${peer} before the deadline.${likely}`, 'unknown', causes)
+  return new TimeoutError(
+    `${title}: no answer from ${peer} before the deadline.${mostLikely(causes)}`,
+    'unknown',
+    causes,
+  )
 }
 
 /** Connected, but nothing answers. */
@@ -69,7 +98,25 @@ export function quarantine(peer: string): ConnectionError {
   return new ConnectionError('DISCONNECTED', message, 'unknown')
 }
 
+/** The PLC was reset by a command that it does not answer. */
+export function reset(peer: string): ConnectionError {
+  const message = `${peer} was reset, which ends its connections; the connection is made anew.`
+  return new ConnectionError('DISCONNECTED', message, 'unknown')
+}
+
 /** A failure that is no `PlcError` is a bug of this package; it ends the connection and is reported, not thrown. */
 export function unexpected(error: unknown): ConnectionError {
   return new ConnectionError('DISCONNECTED', `Unexpected failure: ${String(error)}`, 'unknown', error)
+}
+
+export function asPlcError(error: unknown): PlcError {
+  return error instanceof PlcError ? error : unexpected(error)
+}
+
+/**
+ * Whether a connection that was lost for this reason is the success of a command that is not answered (Remote Reset):
+ * the PLC has gone silent or has gone. Not when it was never there, or spoke nonsense.
+ */
+export function isSuccessOfReset(reason: PlcError): boolean {
+  return reason instanceof ConnectionError && (reason.code === 'DISCONNECTED' || reason.code === 'SILENT')
 }

@@ -236,7 +236,7 @@ export class MelsecClient {
   /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
   #prepare(items: readonly Item[]): ReadPlan {
     if (!items.every((item) => typeof item === 'string')) return this.plan(items)
-    const key = items.join('\n')
+    const key = `${items.length}:${items.join('\n')}`
     const known = this.#prepared.get(key)
     if (known !== undefined) return known
     const plan = this.plan(items)

@@ -14,16 +14,21 @@ export interface RoundTrip {
 
 /** Counters since the client was made. */
 export interface Statistics {
+  /** Requests of the program. The first request on each connection, which only proves it, counts nowhere but in bytes. */
   readonly requests: number
   readonly answered: number
   /** Answers with an end code other than 0. */
   readonly refused: number
+  /** Requests without an answer before their deadline, sent or not. */
   readonly timeouts: number
   readonly aborted: number
+  /** Times that the PLC sent what the protocol does not allow. */
   readonly protocolErrors: number
   /** Answers to requests that had been given up. */
   readonly stale: number
+  /** Attempts to connect. */
   readonly connects: number
+  /** Connections that ended otherwise than by `close()`. */
   readonly disconnects: number
   readonly bytesSent: number
   readonly bytesReceived: number
@@ -71,7 +76,8 @@ export class Counters {
     if (this.#timed === 0) return undefined
     const count = Math.min(this.#timed, KEPT)
     const sorted = this.#times.slice(0, count).sort()
-    const at = (share: number) => sorted[Math.min(count - 1, Math.floor(share * count))] as number
+    // Nearest rank: the smallest time that at least this share of the answers did not exceed.
+    const at = (share: number) => sorted[Math.max(0, Math.ceil(share * count) - 1)] as number
     return {
       count,
       last: this.#times[(this.#timed - 1) % KEPT] as number,

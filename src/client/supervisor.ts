@@ -14,7 +14,7 @@ export interface SupervisorOptions {
   readonly random: () => number
 }
 
-/** A connection that lived at least this long was a good one: the next attempt starts afresh. */
+/** A connection that lived at least this long was a good one: the next attempt starts afresh. ms */
 const STABLE = 5_000
 
 export class Supervisor {
@@ -22,6 +22,9 @@ export class Supervisor {
   #name: ConnectionStateName = 'idle'
   #attempt = 0
   #connectedAt = 0
+  /** Attempts it took to make the present connection, those that made short-lived ones included. */
+  #attemptsSpent = 0
+  #useful = false
   #nextAttempt: number | undefined
   #error: PlcError | undefined
 
@@ -71,17 +74,25 @@ export class Supervisor {
   /** The PLC answered: the connection is good. */
   connected(now: number): void {
     this.#name = 'connected'
+    this.#attemptsSpent = this.#attempt
+    this.#useful = false
     this.#attempt = 0
     this.#error = undefined
     this.#connectedAt = now
+  }
+
+  /** The PLC has answered a request of the program, not only the first one that proves the connection. */
+  proved(): void {
+    this.#useful = true
   }
 
   /** The attempt failed, or the connection is gone or was dropped. */
   lost(error: PlcError, now: number, pauseAtLeast = 0): void {
     if (this.#name === 'closed') return
     const wasGood = this.#name === 'connected'
-    // A connection that breaks again and again right after it was made must not become a storm of connects.
-    if (wasGood && now - this.#connectedAt < STABLE) this.#attempt = 1
+    // A connection that breaks again and again right after it was made must not become a storm of connects: as long as
+    // nothing came of it, the pauses go on growing.
+    if (wasGood && now - this.#connectedAt < STABLE) this.#attempt = this.#useful ? 1 : Math.max(1, this.#attemptsSpent)
     this.#name = 'waiting'
     this.#error = error
     this.#nextAttempt = now + Math.max(pauseAtLeast, this.#pause())

@@ -78,12 +78,11 @@ function boundsProblem({ min = 0, max, zeroMeans }: IntegerField | CountField, w
   return widest > last(width) ? `goes up to ${highest}, which its width cannot hold` : undefined
 }
 
-/** A derived count and what it counts must name each other, and the count must come first. */
+/** A derived count and what it counts must name each other; that the count comes first is seen at what it counts. */
 function derivedProblem(name: string, { of }: CountField, shape: Shape): string | undefined {
   const counted = fieldIn(shape, of)
   if (counted === undefined) return `counts ${of}, which is not beside it`
-  if (!('count' in counted) || counted.count !== name) return `counts ${of}, which is not counted by it`
-  return isBefore(shape, name, of) ? undefined : `counts ${of}, which stands in front of it`
+  return 'count' in counted && counted.count === name ? undefined : `counts ${of}, which is not counted by it`
 }
 
 function echoProblem(repeated: Field | undefined, of: string): string | undefined {

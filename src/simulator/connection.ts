@@ -10,7 +10,7 @@ import type { ServerConnection } from '../transport/transport'
 import { type AnyHead, anyFrame } from './any-frame'
 import { routeRefusal } from './check'
 import type { FaultSubject, Faults } from './faults'
-import type { Caller } from './handlers'
+import type { Call } from './handlers'
 import type { Answer, Plc } from './plc'
 import { Refusal, requestErrors } from './refusal'
 import { type Received, receive } from './request'
@@ -46,8 +46,8 @@ export interface Shared {
   readonly scanTime: number
   readonly counters: Counters
   readonly heldDatagrams: HeldAnswers
-  /** Whether the receive buffer of the UDP port takes another request. */
-  readonly roomForDatagram: () => boolean
+  /** Receive buffer of the UDP port: requests it holds, the one that is being answered among them. */
+  readonly datagramBuffer: { readonly size: number; used: number }
   readonly observe: (event: RequestEvent) => void
 }
 
@@ -66,7 +66,7 @@ export class Connection {
   readonly since: number
   readonly #shared: Shared
   readonly #peer: ServerConnection
-  readonly #caller: Caller
+  readonly #call: Call
   readonly #responder: Responder<AnyHead>
   readonly #sequence: Sequence<Work>
   readonly #held: HeldAnswers
@@ -83,11 +83,14 @@ export class Connection {
   ) {
     this.#shared = shared
     this.#peer = peer
-    this.#caller = { owner, monitored: undefined }
+    this.#call = shared.plc.callOf({ owner, monitored: undefined })
     this.since = shared.clock.time()
     const framing = anyFrame(shared.frames, shared.protocol.code, (bytes) => this.#unreadable(bytes))
     this.#responder = new Responder(framing, kind, () => undefined)
-    this.#sequence = new Sequence(shared.clock)
+    const { datagramBuffer } = shared
+    this.#sequence = new Sequence(shared.clock, (change) => {
+      if (kind === 'datagram') datagramBuffer.used += change
+    })
     this.#held = kind === 'datagram' ? shared.heldDatagrams : []
     peer.onReceived = (bytes) => this.#receive(bytes)
   }
@@ -99,11 +102,6 @@ export class Connection {
   /** Requests so far. */
   get requests(): number {
     return this.#requests
-  }
-
-  /** Requests that wait for their answers. */
-  get pending(): number {
-    return this.#sequence.size
   }
 
   /** After the connection has ended, or to end it. */
@@ -139,7 +137,9 @@ export class Connection {
     counters.requests++
     counters.discarded += this.#sequence.drop((older) => !older.sending && faults.take('coalesce', older) !== undefined)
     if (faults.take('silence', work) !== undefined) return
-    if (this.kind === 'datagram' && !this.#shared.roomForDatagram()) {
+    // SLMP reference manual 3.3, FX5 communication manual 6.5: what comes while the buffer is full is thrown away.
+    const { used, size } = this.#shared.datagramBuffer
+    if (this.kind === 'datagram' && used >= size) {
       counters.discarded++
       return
     }
@@ -162,7 +162,7 @@ export class Connection {
     const forced = faults.take('endCode', work)
     const answer: Answer =
       forced === undefined
-        ? plc.answer(protocol, received, this.#caller)
+        ? plc.answer(protocol, received, this.#call)
         : { kind: 'refused', endCode: forced.endCode, message: 'fault switch' }
     this.#observe(received, answer)
     if (answer.kind === 'none') return NOTHING

@@ -63,8 +63,13 @@ export class Plc {
     this.#refreshSystemDevices()
   }
 
+  /** What the handlers get for requests of this caller. */
+  callOf(caller: Caller): Call {
+    return { ...this.#call, caller }
+  }
+
   /** Carries a request out. */
-  answer(protocol: MelsecProtocol<AnyHead>, { frame, request }: Received, caller: Caller): Answer {
+  answer(protocol: MelsecProtocol<AnyHead>, { frame, request }: Received, call: Call): Answer {
     try {
       const wrongRoute = routeRefusal(this.profile, frame.head.head.route)
       if (wrongRoute !== undefined) {
@@ -75,7 +80,7 @@ export class Plc {
       checkRequest(this.profile, protocol.code, request)
       // What clients write to the system's devices does not stay there.
       this.#refreshSystemDevices()
-      return this.#carryOut(protocol, request, caller)
+      return this.#carryOut(protocol, request, call)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
       return { kind: 'refused', endCode: error.endCode, message: error.message }
@@ -93,18 +98,12 @@ export class Plc {
     this.cpu.up()
   }
 
-  #carryOut(protocol: MelsecProtocol<AnyHead>, request: ReceivedRequest, caller: Caller): Answer {
+  #carryOut(protocol: MelsecProtocol<AnyHead>, request: ReceivedRequest, call: Call): Answer {
     const { name, command } = request
-    const response = this.#handle(name, request.message, caller)
+    const response = handle(name, request.message, call)
     if (command.answered === 'no') return { kind: 'none' }
-    const context = command.context === undefined ? request.message : (caller.monitored ?? {})
+    const context = command.context === undefined ? request.message : (call.caller.monitored ?? {})
     return { kind: 'data', body: protocol.writeResponse(request, response, context) }
-  }
-
-  #handle<N extends CommandName>(name: N, message: ReceivedRequest['message'], caller: Caller) {
-    const handler: Handler<N> = handlers[name]
-    // The message was decoded by this command's declaration, from which its type is inferred.
-    return handler(message as Parameters<Handler<N>>[0], { ...this.#call, caller })
   }
 
   /** SD203: state of the CPU. SM400 and SM401: always on, always off. */
@@ -112,4 +111,10 @@ export class Plc {
     this.#devices.writeWords({ device: 'SD', number: 203 }, [this.cpu.statusWord])
     this.#devices.writeBits({ device: 'SM', number: 400 }, [true, false])
   }
+}
+
+function handle<N extends CommandName>(name: N, message: ReceivedRequest['message'], call: Call) {
+  const handler: Handler<N> = handlers[name]
+  // The message was decoded by this command's declaration, from which its type is inferred.
+  return handler(message as Parameters<Handler<N>>[0], call)
 }

@@ -14,23 +14,22 @@ interface Job<Subject> {
 
 export class Sequence<Subject> {
   readonly #clock: Clock
+  readonly #counted: (change: number) => void
   #jobs: Job<Subject>[] = []
   #running = false
   #closed = false
   #cancel: (() => void) | undefined
 
-  constructor(clock: Clock) {
+  /** `counted` is told how the number of unfinished jobs changes. */
+  constructor(clock: Clock, counted: (change: number) => void) {
     this.#clock = clock
-  }
-
-  /** Jobs that are not finished. */
-  get size(): number {
-    return this.#jobs.length
+    this.#counted = counted
   }
 
   push(subject: Subject, steps: readonly Step[]): void {
     if (this.#closed) return
     this.#jobs.push({ subject, steps: [...steps] })
+    this.#counted(1)
     this.#run()
   }
 
@@ -40,6 +39,7 @@ export class Sequence<Subject> {
     const kept = this.#jobs.filter(({ subject }) => !which(subject))
     const dropped = this.#jobs.length - kept.length
     this.#jobs = kept
+    this.#counted(-dropped)
     if (dropped > 0 && kept[0] !== first) this.#endWait()
     this.#run()
     return dropped
@@ -47,6 +47,7 @@ export class Sequence<Subject> {
 
   close(): void {
     this.#closed = true
+    this.#counted(-this.#jobs.length)
     this.#jobs = []
     this.#endWait()
   }
@@ -73,6 +74,7 @@ export class Sequence<Subject> {
     const step = job.steps.shift()
     if (step === undefined) {
       this.#jobs.shift()
+      this.#counted(-1)
       return true
     }
     if ('act' in step) {

@@ -245,16 +245,9 @@ class Simulator implements PlcSimulator {
       scanTime,
       counters: this.#counters,
       heldDatagrams: [],
-      roomForDatagram: () => this.#pendingDatagrams() <= profile.inFlight.udpBuffer,
+      datagramBuffer: { size: 1 + profile.inFlight.udpBuffer, used: 0 },
       observe: (event) => this.#observe(event),
     }
-  }
-
-  /** SLMP reference manual 3.3, FX5 communication manual 6.5: what comes while the buffer is full is thrown away. */
-  #pendingDatagrams(): number {
-    let pending = 0
-    for (const { kind, pending: own } of this.#connections.values()) if (kind === 'datagram') pending += own
-    return pending
   }
 
   #observe(event: RequestEvent): void {

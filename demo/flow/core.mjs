@@ -1,0 +1,42 @@
+// Node-RED's own nodes with the settings they store.
+
+/** A Function node that calls one of functions.mjs. */
+export function functionNode(run, { wires, ...node }) {
+  return {
+    ...node,
+    type: 'function',
+    func: `${run.toString()}\n\nreturn ${run.name}(msg, context)\n`,
+    outputs: wires.length,
+    timeout: 0,
+    noerr: 0,
+    initialize: '',
+    finalize: '',
+    libs: [],
+    wires,
+  }
+}
+
+/** @param every seconds */
+export function inject({ every, payload, ...node }) {
+  const props = payload === undefined ? [] : [{ p: 'payload', v: payload, vt: 'str' }]
+  return { ...node, type: 'inject', props, repeat: String(every), crontab: '', once: true, onceDelay: '0.5', topic: '' }
+}
+
+/** @param scope ids of the nodes whose errors it catches */
+export function catchNode(node) {
+  return { ...node, type: 'catch', uncaught: false }
+}
+
+/** A Change node with one rule: the payload becomes what a JSONata expression says. */
+export function setPayload(expression, node) {
+  return {
+    ...node,
+    type: 'change',
+    rules: [{ t: 'set', p: 'payload', pt: 'msg', to: expression, tot: 'jsonata' }],
+    action: '',
+    property: '',
+    from: '',
+    to: '',
+    reg: false,
+  }
+}

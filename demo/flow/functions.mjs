@@ -1,0 +1,66 @@
+// What the flow's Function nodes do. They are ordinary functions here; build.mjs puts their source into the nodes.
+
+/**
+ * Function node "State of the connection": everything the page's head shows, gathered from several messages.
+ * First output: the head. Second: asks the CPU for its model after each new connection.
+ */
+export function connectionState(msg, context) {
+  const state = context.get('state') ?? { name: 'connecting', reason: '', model: '', roundTrip: null, cpu: '' }
+  const wasConnected = state.name === 'connected'
+  const cpuStates = ['RUN', '', 'STOP', 'PAUSE']
+  if (msg.status !== undefined) {
+    // Status of the read node: green, yellow and red say how the connection is.
+    const { fill } = msg.status
+    state.name = fill === 'green' ? 'connected' : fill === 'yellow' ? 'connecting' : 'offline'
+    if (state.name !== 'offline') state.reason = ''
+  } else if (msg.error !== undefined) {
+    // Caught from the nodes that ask by themselves: why there are no values.
+    state.reason = msg.error.message
+  } else if (msg.payload?.command === 'identify') {
+    state.model = msg.payload.model
+  } else if (msg.payload?.command === 'selfTest') {
+    state.roundTrip = msg.payload.roundTrip
+  } else {
+    // Values have been read. SD203 says in its lower four bits what the CPU does.
+    state.name = 'connected'
+    state.reason = ''
+    state.cpu = cpuStates[msg.payload.cpuState & 15] ?? ''
+  }
+  if (state.name !== 'connected') Object.assign(state, { roundTrip: null, cpu: '' })
+  context.set('state', state)
+  const identify = state.name === 'connected' && !wasConnected ? { payload: 'identify' } : null
+  return [{ payload: { ...state } }, identify]
+}
+
+/**
+ * Function node "Set-points that changed": what the PLC holds goes to the inputs when it is news to them, so that a
+ * value somebody is about to type is not overwritten every second.
+ */
+export function setPointsThatChanged(msg, context) {
+  const names = ['levelSetPoint', 'temperatureSetPoint', 'mixingTime', 'recipe']
+  if (msg.payload === 'show again') {
+    // A write has succeeded or failed: the inputs must show what the PLC holds now.
+    context.set('shown', {})
+    return null
+  }
+  const shown = context.get('shown') ?? {}
+  const outputs = names.map((name) => (msg.payload[name] === shown[name] ? null : { payload: msg.payload[name] }))
+  context.set('shown', Object.fromEntries(names.map((name) => [name, msg.payload[name]])))
+  return outputs
+}
+
+/** Function node "What went wrong": a caught error as a notification. */
+export function whatWentWrong(msg) {
+  const { outcome } = msg.error.cause ?? {}
+  const outcomes = {
+    notSent: 'Nothing was sent.',
+    refused: 'The PLC refused it.',
+    unknown: 'Whether it was carried out is not known.',
+  }
+  return { payload: `${msg.error.message} ${outcomes[outcome] ?? ''}`, ui_update: { color: '#b3261e' } }
+}
+
+/** Function node "Done": a remote control command that the PLC has carried out, as a notification. */
+export function done(msg) {
+  return { payload: `Remote ${msg.payload.command.toUpperCase()} is done.`, ui_update: { color: '#2e7d32' } }
+}

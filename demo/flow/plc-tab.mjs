@@ -1,0 +1,299 @@
+// The editor tab of one PLC: what is polled and shown, what is written, and how the connection is.
+import { tab } from './canvas.mjs'
+import { catchNode, functionNode, inject, setPayload } from './core.mjs'
+import { groupId, text, ui } from './dashboard.mjs'
+import { connectionState, done, setPointsThatChanged, whatWentWrong } from './functions.mjs'
+import * as widgets from './widgets.mjs'
+
+const LEVEL_COLOUR = '#1f6fb2'
+const HEAT_COLOUR = '#d9660a'
+
+/** The connection node. Writes and remote control are ticked: this plant is a simulated one. */
+export function connection(plc) {
+  return {
+    id: connectionId(plc),
+    type: 'melsec-jw-connection',
+    name: plc.title,
+    version: 1,
+    profile: plc.profile,
+    host: '127.0.0.1',
+    port: `\${${plc.portVariable}}`,
+    transport: 'tcp',
+    code: 'binary',
+    frame: plc.frame,
+    localAddress: '',
+    localPort: '',
+    network: '0',
+    station: '255',
+    moduleIo: '3FF',
+    multidrop: '0',
+    timeout: '3000',
+    monitoringTimer: '',
+    inFlight: '1',
+    gap: '64',
+    xyRadix: '',
+    asciiXy: '',
+    asciiZr: '',
+    encoding: 'shift-jis',
+    wordOrder: 'low-first',
+    allowWrites: true,
+    allowControl: true,
+  }
+}
+
+const connectionId = (plc) => `${plc.id}-connection`
+
+/**
+ * Every node of a PLC's tab.
+ * @param tags of demoPlantTags
+ */
+export function plcTab(plc, tags) {
+  const canvas = tab(plc.id, plc.title, info(plc))
+  const part = {
+    canvas,
+    tags,
+    group: (name) => groupId(plc, name),
+    uses: { connection: connectionId(plc), version: 1 },
+    filled: (file) => text(file).replaceAll('__TITLE__', plc.title).replaceAll('__FRAME__', plc.frame),
+  }
+  poll(part)
+  state(part)
+  remote(part)
+  operate(part)
+  failures(part)
+  return canvas.nodes
+}
+
+function info({ title, portVariable }) {
+  return [
+    `# ${title}`,
+    '',
+    'Reads the simulated PLC every second, shows it on the dashboard, and writes what is operated there.',
+    '',
+    `The port comes from the environment (\`${portVariable}\`), because it may differ from start to start.`,
+    '',
+    'For a real PLC open the connection, give its address, and look at the addresses in the read node.',
+  ].join('\n')
+}
+
+/** Rows of a read or write node: address and type apart, as the editor shows them. */
+function rows(tags) {
+  return tags.map(({ name, address }) => {
+    const [device, type] = address.split(':')
+    return { name, address: device, type }
+  })
+}
+
+function poll({ canvas, tags, group, uses, filled }) {
+  const column = 390
+  const shown = [
+    widgets.gauge(group('tank'), {
+      id: 'level',
+      name: 'Level',
+      value: 'payload.level',
+      units: 'l',
+      gtype: 'gauge-tank',
+      max: 1000,
+      segments: [{ from: 0, color: LEVEL_COLOUR }],
+    }),
+    widgets.text(group('tank'), { id: 'level-text', label: 'Level', value: "$formatNumber(payload.level, '0') & ' l'" }),
+    widgets.gauge(group('heat'), {
+      id: 'temperature',
+      name: 'Temperature',
+      value: '$round(payload.temperature, 1)',
+      units: '°C',
+      gtype: 'gauge-34',
+      max: 100,
+      segments: [
+        { from: 0, color: '#5b8fb9' },
+        { from: 30, color: HEAT_COLOUR },
+        { from: 85, color: '#b3261e' },
+      ],
+    }),
+    widgets.text(group('heat'), {
+      id: 'temperature-text',
+      label: 'Set-point',
+      value: "$formatNumber(payload.temperatureSetPoint, '0.0') & ' °C'",
+    }),
+    widgets.chart(group('trend'), { id: 'level-trend', order: 1, label: 'Level [l]', series: 'level', ymax: 1000, colour: LEVEL_COLOUR }),
+    widgets.chart(group('trend'), {
+      id: 'temperature-trend',
+      order: 2,
+      label: 'Temperature [°C]',
+      series: 'temperature',
+      ymax: 100,
+      colour: HEAT_COLOUR,
+    }),
+    widgets.template(group('states'), { id: 'states', name: 'States', format: filled('states.vue') }),
+    widgets.template(group('batch'), { id: 'batch', name: 'Batch', format: filled('batch.vue') }),
+    canvas.linkOut({ id: 'values-out', name: 'values', to: ['values-to-setpoints', 'values-to-state'] }),
+  ]
+  canvas.frame('poll', 'Read every second, and show', { x: 20, y: 20, width: 600, rows: shown.length }, [
+    inject({ id: 'every-second', column: 0, row: 4, name: 'every second', every: 1, wires: [['read']] }),
+    {
+      id: 'read',
+      column: 190,
+      row: 4,
+      type: 'melsec-jw-read',
+      name: 'mixing tank',
+      ...uses,
+      addressesType: 'rows',
+      addresses: '',
+      items: [...rows(tags), { name: 'cpuState', address: 'SD203', type: 'WORD' }],
+      output: 'object',
+      property: 'payload',
+      quality: false,
+      partial: 'error',
+      wires: [shown.map(({ id }) => id)],
+    },
+    ...shown.map((node, row) => ({ ...node, column, row })),
+  ])
+}
+
+function control({ uses, ...node }) {
+  return {
+    ...node,
+    type: 'melsec-jw-control',
+    ...uses,
+    command: 'payload',
+    commandType: 'msg',
+    clear: 'keep',
+    force: false,
+  }
+}
+
+function state({ canvas, group, uses, filled }) {
+  const known = [['connection-state']]
+  canvas.frame('state', 'Connection and round trip', { x: 660, y: 20, width: 680, rows: 5 }, [
+    inject({ id: 'every-two', column: 0, row: 0, name: 'every 2 seconds', every: 2, payload: 'selfTest', wires: [['ask']] }),
+    canvas.linkIn({ id: 'identify-in', column: 0, row: 1, name: 'identify', from: ['identify-out'], wires: [['ask']] }),
+    control({ id: 'ask', column: 230, row: 0, name: 'self test, identify', uses, wires: known }),
+    { id: 'status', column: 0, row: 2, type: 'status', name: 'status of the read node', scope: [canvas.name('read')], wires: known },
+    catchNode({
+      id: 'silent',
+      column: 0,
+      row: 3,
+      name: 'why there are no values',
+      scope: ['read', 'ask'].map(canvas.name),
+      wires: known,
+    }),
+    canvas.linkIn({ id: 'values-to-state', column: 0, row: 4, name: 'values', from: ['values-out'], wires: known }),
+    functionNode(connectionState, {
+      id: 'connection-state',
+      column: 240,
+      row: 3,
+      name: 'State of the connection',
+      wires: [['head'], ['identify-out']],
+    }),
+    {
+      ...widgets.template(group('head'), { id: 'head', name: 'Head of the page', format: filled('head.vue') }),
+      ...widgets.size(12, 1),
+      column: 490,
+      row: 2,
+    },
+    canvas.linkOut({ id: 'identify-out', column: 490, row: 3, name: 'identify', to: ['identify-in'] }),
+  ])
+}
+
+function remote({ canvas, group, uses, filled }) {
+  canvas.frame('remote-frame', 'Remote RUN / STOP, after a question', { x: 660, y: 350, width: 680, rows: 1 }, [
+    {
+      ...widgets.template(group('operate'), { id: 'cpu', name: 'CPU RUN / STOP', format: filled('cpu.vue'), order: 4 }),
+      ...widgets.size(3, 3),
+      column: 0,
+      row: 0,
+      wires: [['remote']],
+    },
+    control({ id: 'remote', column: 190, row: 0, name: 'remote control', uses, wires: [['done']] }),
+    functionNode(done, { id: 'done', column: 360, row: 0, name: 'Done', wires: [['done-message']] }),
+    widgets.notification(ui, { id: 'done-message', column: 490, row: 0, name: 'carried out' }),
+  ])
+}
+
+function operate({ canvas, tags, group, uses }) {
+  const tag = (name) => tags.find((candidate) => candidate.name === name)
+  const input = (name, order) => {
+    const { title, unit, min, max } = tag(name)
+    return { label: `${title} [${unit}]`, topic: name, min, max, order }
+  }
+  const inputs = [
+    widgets.slider(group('setpoints'), { id: 'level-setpoint', step: 10, ...input('levelSetPoint', 1) }),
+    widgets.slider(group('setpoints'), { id: 'temperature-setpoint', step: 1, ...input('temperatureSetPoint', 2) }),
+    widgets.numberInput(group('setpoints'), { id: 'mixing-time', ...input('mixingTime', 3) }),
+    widgets.dropdown(group('setpoints'), {
+      id: 'recipe',
+      order: 4,
+      label: 'Next product',
+      topic: 'recipe',
+      options: [
+        [1, 'Apple juice'],
+        [2, 'Green tea'],
+        [3, 'Oolong tea'],
+      ],
+    }),
+  ]
+  const buttons = [
+    widgets.button(group('operate'), { id: 'start', order: 1, label: 'Start', topic: 'start', icon: 'play', colour: '#2e7d32' }),
+    widgets.button(group('operate'), { id: 'stop', order: 2, label: 'Stop', topic: 'stop', icon: 'stop', colour: '#5f6b77' }),
+    widgets.button(group('operate'), {
+      id: 'acknowledge',
+      order: 3,
+      label: 'Acknowledge alarm',
+      topic: 'acknowledge',
+      icon: 'bell-check',
+      colour: '#b07d00',
+    }),
+  ]
+  canvas.frame('operate', 'Write what is set or pressed', { x: 20, y: 630, width: 1180, rows: 7 }, [
+    canvas.linkIn({ id: 'values-to-setpoints', column: 0, row: 1, name: 'values', from: ['values-out'], wires: [['setpoints']] }),
+    canvas.linkIn({
+      id: 'again-in',
+      column: 0,
+      row: 2,
+      name: 'show again',
+      from: ['again-out', 'failed-again-out'],
+      wires: [['again']],
+    }),
+    setPayload('"show again"', { id: 'again', column: 70, row: 2, name: 'show again', wires: [['setpoints']] }),
+    functionNode(setPointsThatChanged, {
+      id: 'setpoints',
+      column: 230,
+      row: 1,
+      name: 'Set-points that changed',
+      wires: inputs.map(({ id }) => [id]),
+    }),
+    ...[...inputs, ...buttons].map((node, row) => ({ ...node, column: 500, row, wires: [['by-name']] })),
+    setPayload('{ topic: payload }', { id: 'by-name', column: 760, row: 3, name: 'value by name', wires: [['write']] }),
+    {
+      id: 'write',
+      column: 940,
+      row: 3,
+      type: 'melsec-jw-write',
+      name: 'mixing tank',
+      ...uses,
+      values: 'payload',
+      valuesType: 'msg',
+      items: rows(tags.filter(({ writable }) => writable)).map((row) => ({ ...row, value: 'payload', valueType: 'msg' })),
+      readBack: false,
+      readModifyWrite: false,
+      wires: [['again-out']],
+    },
+    canvas.linkOut({ id: 'again-out', column: 1120, row: 3, name: 'show again', to: ['again-in'] }),
+  ])
+}
+
+function failures({ canvas }) {
+  canvas.frame('failures', 'What was operated and has failed', { x: 660, y: 470, width: 680, rows: 2 }, [
+    catchNode({
+      id: 'failed',
+      column: 0,
+      row: 0,
+      name: 'write, remote control',
+      scope: ['write', 'remote'].map(canvas.name),
+      wires: [['wrong', 'failed-again-out']],
+    }),
+    functionNode(whatWentWrong, { id: 'wrong', column: 240, row: 0, name: 'What went wrong', wires: [['failed-message']] }),
+    widgets.notification(ui, { id: 'failed-message', column: 490, row: 0, name: 'failed' }),
+    canvas.linkOut({ id: 'failed-again-out', column: 240, row: 1, name: 'show again', to: ['again-in'] }),
+  ])
+}

@@ -1,0 +1,140 @@
+/**
+ * `POST /melsec-jw/connection/test`: connects, asks the CPU who it is and measures the round trip.
+ *
+ * Body: `{ id, settings }`: the connection node and its settings as they stand in the dialog, also before they are
+ * deployed. So the host is whatever the user typed: whoever may call this may deploy flows that connect anywhere, and
+ * needs the permission `melsec-jw.write`. One test at a time, and none without an end.
+ */
+import type { NodeAPI } from 'node-red'
+import {
+  createMelsecClient,
+  EndCodeError,
+  type Identity,
+  type MelsecClient,
+  type MelsecClientOptions,
+  RequestError,
+} from '../src/index'
+import { endpoint, objectIn } from './admin'
+import type { Connection } from './connection'
+import { optionsOf, resolverOf, settingsOf } from './connection-settings'
+import { detailsOf, type FailureDetails } from './failure'
+import type { StoredSettings } from './migration'
+import type { Texts } from './texts'
+
+/** ms: how long connecting may take; a PLC that is off answers nothing at all. */
+const CONNECT = 8_000
+/** ms for each question. */
+const QUESTION = 3_000
+const ROUNDS = 10
+
+export interface TestResult extends Partial<Identity> {
+  readonly ok: true
+  /** ms */
+  readonly roundTrip: { readonly min: number; readonly mean: number; readonly max: number; readonly count: number }
+  /** Why the CPU did not say who it is. */
+  readonly unidentified?: string
+}
+
+export type TestFailure = FailureDetails & { readonly ok: false; readonly causes: readonly string[] }
+
+export function connectionTest(RED: NodeAPI, texts: Texts, deployed: (id: string) => Connection | undefined): void {
+  let busy = false
+  endpoint(RED, '/melsec-jw/connection/test', 'melsec-jw.write', texts, async (body, over) => {
+    if (busy) return { status: 409, body: { message: texts('error.testBusy') } }
+    busy = true
+    try {
+      return { status: 200, body: await outcome(RED, texts, body, over, deployed) }
+    } finally {
+      busy = false
+    }
+  })
+}
+
+async function outcome(
+  RED: NodeAPI,
+  texts: Texts,
+  body: StoredSettings,
+  over: AbortSignal,
+  deployed: (id: string) => Connection | undefined,
+): Promise<TestResult | TestFailure> {
+  const id = typeof body.id === 'string' ? body.id : ''
+  const connection = deployed(id)
+  let peer = ''
+  try {
+    const options = optionsIn(RED, id, objectIn(body, 'settings'), texts)
+    peer = `${options.transport ?? 'tcp'} ${options.host}:${options.port}`
+    const running = connected(connection, options)
+    if (running !== undefined) return await ask(running, over)
+    const client = createMelsecClient({ ...options, connectTimeout: CONNECT })
+    try {
+      return await ask(client, over)
+    } finally {
+      await client.close()
+    }
+  } catch (error) {
+    const details = detailsOf(error, texts)
+    const held = connection?.current?.state.name === 'connected' ? [texts('error.entryHeld')] : []
+    const { causes = [] } = details
+    // With its causes the message of a silence is long, and they are listed below it.
+    const message = causes.length === 0 ? details.message : texts('test.silent', { peer })
+    return { ok: false, ...details, message, causes: [...causes, ...held] }
+  }
+}
+
+function optionsIn(RED: NodeAPI, id: string, given: StoredSettings, texts: Texts): MelsecClientOptions {
+  const settings = settingsOf(given, { texts, resolve: resolverOf(RED, RED.nodes.getNode(id), texts) })
+  // The test is what finds the series out, so it does not need it.
+  return optionsOf(settings.profile === '' ? { ...settings, profile: 'generic' } : settings, texts)
+}
+
+/** The running client, when it does what is to be tested: the PLC may have no second entry for a test. */
+function connected(connection: Connection | undefined, options: MelsecClientOptions): MelsecClient | undefined {
+  const same = JSON.stringify(connection?.options) === JSON.stringify(options)
+  return same && connection?.current?.state.name === 'connected' ? connection.current : undefined
+}
+
+async function ask(client: MelsecClient, signal: AbortSignal): Promise<TestResult> {
+  await client.connect({ timeout: CONNECT, signal })
+  const call = { timeout: QUESTION, signal }
+  const identity = await unlessRefused(() => client.identify(call))
+  const times = await rounds(client, call)
+  return {
+    ok: true,
+    ...('refusal' in identity ? { unidentified: identity.refusal } : identity.value),
+    roundTrip: {
+      min: Math.min(...times),
+      mean: times.reduce((sum, time) => sum + time, 0) / times.length,
+      max: Math.max(...times),
+      count: times.length,
+    },
+  }
+}
+
+/** Self Test does nothing but send back; a PLC that lacks it is asked for its own name, or a special relay. */
+async function rounds(client: MelsecClient, call: { timeout: number; signal: AbortSignal }): Promise<number[]> {
+  const times: number[] = []
+  let measure = async () => (await client.selfTest(undefined, call)).roundTrip
+  const first = await unlessRefused(measure)
+  if ('refusal' in first) {
+    measure = async () => {
+      await client.read('SM400', call)
+      return client.statistics.roundTrip?.last ?? Number.NaN
+    }
+  } else {
+    times.push(first.value)
+  }
+  while (times.length < ROUNDS) times.push(await measure())
+  return times
+}
+
+/** A PLC that refuses answers, and that is what is tested; everything else is thrown. */
+async function unlessRefused<T>(ask: () => Promise<T>): Promise<{ value: T } | { refusal: string }> {
+  try {
+    return { value: await ask() }
+  } catch (error) {
+    if (error instanceof EndCodeError || (error instanceof RequestError && error.code === 'UNSUPPORTED')) {
+      return { refusal: error.message }
+    }
+    throw error
+  }
+}

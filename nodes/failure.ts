@@ -1,0 +1,121 @@
+// What a node hands to done(): an error that Node-RED carries to Catch nodes without losing what the plant must know.
+
+import type { PlcErrorCode } from '../src/index'
+import {
+  ConnectionError,
+  EndCodeError,
+  explainEndCode,
+  type Outcome,
+  PlcError,
+  RequestError,
+  TimeoutError,
+} from '../src/index'
+import { languageOf, type Texts } from './texts'
+
+/** Failures that only nodes know. */
+export type NodeErrorCode =
+  | 'NOT_CONFIGURED' // settings of the node or its connection
+  | 'BAD_INPUT' // the message lacks what the node needs
+  | 'READ_BACK' // written and acknowledged, but the PLC holds something else
+  | 'UNEXPECTED' // a bug
+
+export type FailureCode = PlcErrorCode | NodeErrorCode
+
+/** What is known about a failure, as plain data: it survives being copied from message to message. */
+export interface FailureDetails {
+  readonly code: FailureCode
+  readonly message: string
+  readonly outcome: Outcome
+  /** The number the PLC sent, e.g. 0xC056. */
+  readonly endCode?: number
+  /** What the end code means and what to do, in the language of the runtime. */
+  readonly meaning?: string
+  readonly remedy?: string
+  /** Manual's name of the command. */
+  readonly command?: string
+  /** Station that reported the error. */
+  readonly station?: string
+  /** Item, field or option it is about. */
+  readonly field?: string
+  /** Ranked causes, most likely first. */
+  readonly causes?: readonly string[]
+  /** What the system said, e.g. `connect ECONNREFUSED 192.168.3.39:5007`. */
+  readonly reason?: string
+}
+
+/** Anything else a node knows about its failure, e.g. which items were written. */
+export type FailureExtra = Readonly<Record<string, unknown>>
+
+/**
+ * The error of a node. Of an error, Node-RED copies `message`, `code`, `stack` and `cause` into `msg.error` and drops
+ * the rest, so `cause` carries all that is known: `msg.error.cause.outcome`, `msg.error.cause.endCode`, ...
+ */
+export class NodeFailure extends Error {
+  readonly code: FailureCode
+  readonly outcome: Outcome
+  readonly endCode: number | undefined
+  readonly causes: readonly string[]
+  override readonly cause: FailureDetails & FailureExtra
+
+  constructor(details: FailureDetails, extra: FailureExtra = {}) {
+    super(details.message)
+    this.name = 'PlcError'
+    this.code = details.code
+    this.outcome = details.outcome
+    this.endCode = details.endCode
+    this.causes = details.causes ?? []
+    this.cause = { ...details, ...extra }
+  }
+}
+
+/** A failure that a node found itself, before anything was sent. */
+export function refusal(code: FailureCode, message: string, extra: FailureExtra = {}): NodeFailure {
+  return new NodeFailure({ code, message, outcome: 'notSent' }, extra)
+}
+
+/** Whatever was thrown, as the error of a node. */
+export function failureOf(thrown: unknown, texts: Texts, extra: FailureExtra = {}): NodeFailure {
+  if (thrown instanceof NodeFailure) return thrown
+  const failure = new NodeFailure(detailsOf(thrown, texts), extra)
+  if (thrown instanceof Error && thrown.stack !== undefined) failure.stack = thrown.stack
+  return failure
+}
+
+/** What is known about an error, as plain data. */
+export function detailsOf(thrown: unknown, texts: Texts): FailureDetails {
+  if (thrown instanceof NodeFailure) return thrown.cause
+  if (!(thrown instanceof PlcError)) {
+    // The outcome is unknown, because nobody knows how far it came.
+    return {
+      code: 'UNEXPECTED',
+      message: thrown instanceof Error ? thrown.message : String(thrown),
+      outcome: 'unknown',
+    }
+  }
+  const { code, message, outcome } = thrown
+  return { code, message, outcome, ...specific(thrown, texts), ...reasonOf(thrown) }
+}
+
+function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
+  if (error instanceof EndCodeError) {
+    const { endCode, command, station } = error
+    const explained = explainEndCode(endCode, { language: languageOf(texts) })
+    const meaning = explained?.meaning ?? error.meaning
+    const remedy = explained?.remedy ?? error.remedy
+    return { endCode, ...present({ meaning, remedy, command, station }) }
+  }
+  if (error instanceof RequestError) return present({ field: error.field })
+  if (error instanceof TimeoutError || error instanceof ConnectionError) {
+    return error.causes.length === 0 ? {} : { causes: error.causes }
+  }
+  return {}
+}
+
+function reasonOf(error: PlcError): { reason?: string } {
+  return error.cause instanceof Error && error.cause.message !== error.message ? { reason: error.cause.message } : {}
+}
+
+function present<T extends Readonly<Record<string, string | undefined>>>(given: T): { [K in keyof T]?: string } {
+  const entries = Object.entries(given).filter((entry): entry is [string, string] => entry[1] !== undefined)
+  return Object.fromEntries(entries) as { [K in keyof T]?: string }
+}

@@ -1,0 +1,104 @@
+/** Node `melsec-jw-control`: remote control of the CPU and questions about the PLC itself. */
+import type { NodeAPI } from 'node-red'
+import type { ClearMode, MelsecClient } from '../src/index'
+import type { Connection } from './connection'
+import { refusal } from './failure'
+import type { Migration, StoredSettings } from './migration'
+import { registerUser, type Tools, type Work } from './node'
+import { textIn, wordIn } from './stored'
+import type { Texts } from './texts'
+import { evaluate } from './typed-input'
+
+const migrations: readonly Migration[] = []
+
+const clearModes = ['keep', 'exceptLatched', 'all'] as const satisfies readonly ClearMode[]
+
+interface Options {
+  readonly force: boolean
+  readonly clear: ClearMode
+}
+
+interface Command {
+  /** It changes what the CPU does, so the connection has to allow it. */
+  readonly controls: boolean
+  /** @returns what to tell in the payload, besides the command's name */
+  readonly run: (client: MelsecClient, options: Options) => Promise<object>
+}
+
+const commands = {
+  identify: { controls: false, run: async (client) => ({ ...(await client.identify()) }) },
+  selfTest: { controls: false, run: async (client) => ({ ...(await client.selfTest()) }) },
+  clearError: { controls: true, run: (client) => nothing(client.clearError()) },
+  run: {
+    controls: true,
+    run: async (client, { force, clear }) => {
+      await client.control.run({ force, clear })
+      return { force, clear }
+    },
+  },
+  stop: { controls: true, run: (client) => nothing(client.control.stop()) },
+  pause: {
+    controls: true,
+    run: async (client, { force }) => {
+      await client.control.pause({ force })
+      return { force }
+    },
+  },
+  latchClear: { controls: true, run: (client) => nothing(client.control.latchClear()) },
+  reset: { controls: true, run: (client) => nothing(client.control.reset()) },
+} as const satisfies Record<string, Command>
+
+type CommandName = keyof typeof commands
+
+async function nothing(command: Promise<void>): Promise<object> {
+  await command
+  return {}
+}
+
+/** Where the command comes from; `command`: chosen in the node. */
+const sources = ['command', 'msg', 'flow', 'global', 'env', 'jsonata', 'str', 'json'] as const
+
+function prepare(settings: StoredSettings, tools: Tools): Work {
+  const { RED, node, connection, texts } = tools
+  const type = wordIn(settings, 'commandType', sources, texts)
+  const value = textIn(settings, 'command', texts)
+  const usual: Options = { force: settings.force === true, clear: wordIn(settings, 'clear', clearModes, texts) }
+  const fixed = type === 'command' ? commandNamed(value, texts) : undefined
+  return async (message) => {
+    const given = fixed === undefined ? await evaluate(RED, node, message, { value, type }) : undefined
+    const { name, options } = fixed === undefined ? chosen(given, usual, texts) : { name: fixed, options: usual }
+    message.payload = { command: name, ...(await carryOut(connection, name, options)) }
+    return { messages: [message] }
+  }
+}
+
+function carryOut(connection: Connection, name: CommandName, options: Options): Promise<object> {
+  const command: Command = commands[name]
+  return command.run(command.controls ? connection.clientFor('control') : connection.client, options)
+}
+
+/** `'stop'` or `{ command: 'run', force: true, clear: 'all' }`; what is left out is the node's. */
+function chosen(given: unknown, usual: Options, texts: Texts): { name: CommandName; options: Options } {
+  if (typeof given !== 'object' || given === null) return { name: commandNamed(given, texts), options: usual }
+  const { command, force = usual.force, clear = usual.clear } = given as Record<string, unknown>
+  if (typeof force !== 'boolean') throw refusal('BAD_INPUT', texts('error.badForce'))
+  const clearMode = clearModes.find((mode) => mode === clear)
+  if (clearMode === undefined) throw refusal('BAD_INPUT', texts('error.badClear', { choices: clearModes.join(', ') }))
+  return { name: commandNamed(command, texts), options: { force, clear: clearMode } }
+}
+
+function commandNamed(given: unknown, texts: Texts): CommandName {
+  if (typeof given === 'string' && isCommand(given)) return given
+  throw refusal(
+    'BAD_INPUT',
+    texts('error.badCommand', { given: String(given), choices: Object.keys(commands).join(', ') }),
+  )
+}
+
+function isCommand(name: string): name is CommandName {
+  return Object.hasOwn(commands, name)
+}
+
+export = function register(RED: NodeAPI): void {
+  registerUser(RED, { type: 'melsec-jw-control', migrations, changesPlc: true, prepare })
+}

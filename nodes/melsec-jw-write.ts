@@ -1,0 +1,82 @@
+/** Node `melsec-jw-write`: writes values when a message arrives, and passes the message on when the PLC has taken them. */
+import type { NodeAPI } from 'node-red'
+import type { MelsecClient } from '../src/index'
+import { refusal } from './failure'
+import type { Migration, StoredSettings } from './migration'
+import { registerUser, type Tools, type Work } from './node'
+import { type ItemRow, itemOf, nameOf, rowsIn, textIn, wordIn } from './stored'
+import { evaluate } from './typed-input'
+import { readBackFailure, writeFailure } from './write-result'
+import { entriesByName, type NamedEntry, typedNumber, writable } from './write-values'
+
+const migrations: readonly Migration[] = []
+
+/** Where the values come from; `rows`: each row of the node has its own. */
+const sources = ['rows', 'msg', 'flow', 'global', 'jsonata', 'json'] as const
+/** What the value of a row is. */
+const valueTypes = ['num', 'str', 'bool', 'json', 'msg', 'flow', 'global', 'jsonata'] as const
+
+function prepare(settings: StoredSettings, tools: Tools): Work {
+  const { connection, texts } = tools
+  const entriesFor = entrySource(settings, tools)
+  const readBack = settings.readBack === true
+  const readModifyWrite = settings.readModifyWrite === true
+  return async (message) => {
+    const entries = await entriesFor(message)
+    const client = connection.clientFor('write')
+    const results = await client.write(entries, { readModifyWrite, allOrNothing: true })
+    const failure = writeFailure(entries, results, texts)
+    if (failure !== undefined) throw failure
+    if (readBack) await check(client, entries, tools)
+    return { messages: [message] }
+  }
+}
+
+async function check(client: MelsecClient, entries: readonly NamedEntry[], { texts }: Tools): Promise<void> {
+  const items = entries.map(({ item }) => item)
+  const types = items.map((item) => client.explain(item).type)
+  const failure = readBackFailure(entries, await client.read(items), types, texts)
+  if (failure !== undefined) throw failure
+}
+
+type EntrySource = (message: Parameters<Work>[0]) => Promise<NamedEntry[]>
+
+function entrySource(settings: StoredSettings, tools: Tools): EntrySource {
+  const { RED, node, texts } = tools
+  const type = wordIn(settings, 'valuesType', sources, texts)
+  const rows = rowsIn(settings, texts)
+  if (type === 'rows') {
+    if (rows.length === 0) throw refusal('NOT_CONFIGURED', texts('error.noRows'), { field: 'items' })
+    const values = rows.map((row) => rowValue(row, row.stored, tools))
+    return (message) =>
+      Promise.all(
+        rows.map(async (row, index) => {
+          const value = await values[index]?.(message)
+          return { name: nameOf(row), item: itemOf(row), value: writable(nameOf(row), value, texts) }
+        }),
+      )
+  }
+  const input = { value: textIn(settings, 'values', texts), type }
+  return async (message) => entriesByName(await evaluate(RED, node, message, input), rows, texts)
+}
+
+function rowValue(
+  row: ItemRow,
+  stored: StoredSettings,
+  { RED, node, texts }: Tools,
+): (message: Parameters<Work>[0]) => Promise<unknown> {
+  const type = wordIn(stored, 'valueType', valueTypes, texts)
+  const value = textIn(stored, 'value', texts)
+  if (type === 'num') {
+    const number = typedNumber(value)
+    if (Number.isNaN(number)) {
+      throw refusal('NOT_CONFIGURED', texts('error.notTypedNumber', { name: nameOf(row), value }), { field: 'items' })
+    }
+    return async () => number
+  }
+  return (message) => evaluate(RED, node, message, { value, type })
+}
+
+export = function register(RED: NodeAPI): void {
+  registerUser(RED, { type: 'melsec-jw-write', migrations, changesPlc: true, prepare })
+}

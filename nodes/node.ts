@@ -1,0 +1,132 @@
+/**
+ * What the nodes that use a connection share: how they are registered, how a message becomes a result or an error, and
+ * that `done` is called exactly once. A node itself only says what to do with a message.
+ */
+import type { Node, NodeAPI, NodeDef, NodeMessage, NodeMessageInFlow } from 'node-red'
+import { type Connection, connectionOf } from './connection'
+import { failureOf, type NodeFailure, refusal } from './failure'
+import { type Migration, migrated, type StoredSettings } from './migration'
+import { Display } from './status'
+import { sharedTexts, type Texts } from './texts'
+
+/** What a node works with. */
+export interface Tools {
+  readonly RED: NodeAPI
+  readonly node: Node
+  readonly texts: Texts
+  readonly connection: Connection
+}
+
+/** What came of a message. */
+export interface Answer {
+  /** To send from the only output, in this order. */
+  readonly messages: readonly NodeMessage[]
+  /** Items that failed while others were delivered. */
+  readonly partly?: { readonly failed: number; readonly all: number }
+}
+
+export type Work = (message: NodeMessageInFlow) => Promise<Answer>
+
+/** A type of node that uses a connection. */
+export interface UserType {
+  readonly type: string
+  readonly migrations: readonly Migration[]
+  /** It may change the PLC: a deploy waits for what is under way, and no outcome is kept quiet. */
+  readonly changesPlc: boolean
+  /**
+   * Reads the settings once.
+   * @throws NodeFailure when they are wrong; every message then ends with it.
+   */
+  readonly prepare: (settings: StoredSettings, tools: Tools) => Work
+}
+
+export function registerUser(RED: NodeAPI, type: UserType): void {
+  RED.nodes.registerType(type.type, function (this: Node, stored: NodeDef) {
+    RED.nodes.createNode(this, stored)
+    start(RED, this, type, { ...stored })
+  })
+}
+
+/** Settings at the version the node reads. @throws NodeFailure when a newer version of the package made them. */
+export function readSettings(stored: StoredSettings, migrations: readonly Migration[], texts: Texts): StoredSettings {
+  try {
+    return migrated(stored, migrations)
+  } catch {
+    throw refusal('NOT_CONFIGURED', texts('error.newerVersion'))
+  }
+}
+
+function start(RED: NodeAPI, node: Node, type: UserType, stored: StoredSettings): void {
+  const texts = sharedTexts(RED)
+  const display = new Display(node, texts)
+  const connection = connectionOf(RED.nodes.getNode(String(stored.connection ?? '')))
+  try {
+    if (connection === undefined) throw refusal('NOT_CONFIGURED', texts('error.noConnection'))
+    if (connection.failure !== undefined) throw connection.failure
+    const work = type.prepare(readSettings(stored, type.migrations, texts), { RED, node, texts, connection })
+    const leave = connection.join(display)
+    node.on('close', () => {
+      display.close()
+      leave()
+    })
+    serve(node, { work, connection, display, texts, changesPlc: type.changesPlc })
+  } catch (error) {
+    refuseAll(node, display, failureOf(error, texts), connection?.failure !== undefined)
+  }
+}
+
+/** The node lives, so that its status and a Catch node tell what is wrong. */
+function refuseAll(node: Node, display: Display, failure: NodeFailure, logged: boolean): void {
+  display.failed(failure)
+  if (!logged) node.error(failure)
+  node.on('input', (_message, _send, done) => done(failure))
+}
+
+interface Service {
+  readonly work: Work
+  readonly connection: Connection
+  readonly display: Display
+  readonly texts: Texts
+  readonly changesPlc: boolean
+}
+
+function serve(node: Node, service: Service): void {
+  let closed = false
+  node.on('close', () => {
+    closed = true
+  })
+  node.on('input', (message, send, done) => {
+    const handled = handle(service, message, send, done, () => closed || service.connection.closed)
+    // What is wrong here is no result of the work, which handle() settles: it must be seen and must not end Node-RED.
+    handled.catch((error: unknown) => node.error(error))
+    if (service.changesPlc) service.connection.track(handled.catch(() => undefined))
+  })
+}
+
+type Send = (message: NodeMessage | (NodeMessage | NodeMessage[] | null)[]) => void
+type Done = (error?: Error) => void
+
+async function handle(
+  { work, display, texts, changesPlc }: Service,
+  message: NodeMessageInFlow,
+  send: Send,
+  done: Done,
+  closing: () => boolean,
+): Promise<void> {
+  let answer: Answer
+  try {
+    answer = await work(message)
+  } catch (error) {
+    const failure = failureOf(error, texts)
+    display.failed(failure)
+    // A value nobody waits for any more because of a deploy is no failure. A write is, whatever became of it.
+    const unwanted = !changesPlc && closing() && (failure.code === 'CLOSED' || failure.code === 'ABORTED')
+    done(unwanted ? undefined : failure)
+    return
+  }
+  if (answer.partly === undefined) display.succeeded()
+  else display.partly(answer.partly.failed, answer.partly.all)
+  const [first, ...more] = answer.messages
+  if (first !== undefined) send(more.length === 0 ? first : [[...answer.messages]])
+  done()
+}

@@ -1,0 +1,115 @@
+// What a node shows below itself: how the connection is, or why the last message failed.
+import type { Node, NodeStatus } from 'node-red'
+import type { ConnectionState } from '../src/index'
+import type { ConnectionUser } from './connection'
+import type { FailureCode, NodeFailure } from './failure'
+import { statusKey, type Texts } from './texts'
+
+/** Which short text stands for which failure; keys of `status` in the connection's catalogue. */
+const FAILURE_TEXTS = {
+  BAD_ADDRESS: 'badAddress',
+  BAD_TYPE: 'badAddress',
+  BAD_VALUE: 'badValue',
+  BAD_OPTION: 'badSettings',
+  BAD_MESSAGE: 'badInput',
+  OUT_OF_RANGE: 'outOfRange',
+  LIMIT_EXCEEDED: 'tooMuch',
+  UNSUPPORTED: 'unsupported',
+  NOT_PERMITTED: 'notAllowed',
+  END_CODE: 'endCode',
+  TRUNCATED: 'badAnswer',
+  TRAILING: 'badAnswer',
+  BAD_DIGIT: 'badAnswer',
+  BAD_FIELD: 'badAnswer',
+  BAD_FRAME: 'badAnswer',
+  BAD_SUM: 'badAnswer',
+  ECHO_MISMATCH: 'badAnswer',
+  UNEXPECTED_ANSWER: 'badAnswer',
+  TIMEOUT: 'timeout',
+  CONNECT_FAILED: 'notReached',
+  DISCONNECTED: 'disconnected',
+  ENTRY_BUSY: 'entryBusy',
+  PORT_UNAVAILABLE: 'portTaken',
+  SILENT: 'silent',
+  OFFLINE: 'disconnected',
+  CLOSED: 'closed',
+  ABORTED: 'closed',
+  QUEUE_FULL: 'queueFull',
+  NOT_CONFIGURED: 'badSettings',
+  BAD_INPUT: 'badInput',
+  READ_BACK: 'readBack',
+  UNEXPECTED: 'failed',
+} as const satisfies Record<FailureCode, string>
+
+function ofState(state: ConnectionState): NodeStatus {
+  switch (state.name) {
+    case 'connecting':
+      // A reconnect keeps showing why there is no connection, until there is one.
+      return state.error === undefined
+        ? { fill: 'yellow', shape: 'ring', text: 'node-red:common.status.connecting' }
+        : ofCode(state.error.code)
+    case 'connected':
+      return { fill: 'green', shape: 'dot', text: 'node-red:common.status.connected' }
+    case 'waiting':
+      return ofCode(state.error?.code ?? 'DISCONNECTED')
+    case 'idle':
+    case 'closed':
+      return {}
+    default:
+      return state.name satisfies never
+  }
+}
+
+function ofCode(code: FailureCode): NodeStatus {
+  return { fill: 'red', shape: 'ring', text: statusKey(FAILURE_TEXTS[code]) }
+}
+
+/** End codes as manuals and GX Works write them: four hexadecimal digits. */
+export function endCodeText(endCode: number): string {
+  return endCode.toString(16).toUpperCase().padStart(4, '0')
+}
+
+/** The status of one node; says each thing once. */
+export class Display implements ConnectionUser {
+  #state: ConnectionState | undefined
+  #shown = '{}'
+  #closed = false
+
+  constructor(
+    private readonly node: Node,
+    private readonly texts: Texts,
+  ) {}
+
+  stateChanged(state: ConnectionState): void {
+    this.#state = state
+    this.#show(ofState(state))
+  }
+
+  succeeded(): void {
+    if (this.#state !== undefined) this.#show(ofState(this.#state))
+  }
+
+  /** Some items of several failed, and the rest was delivered. */
+  partly(failed: number, all: number): void {
+    this.#show({ fill: 'yellow', shape: 'dot', text: this.texts('status.partly', { failed, all }) })
+  }
+
+  failed({ code, endCode }: NodeFailure): void {
+    if (code === 'OFFLINE' && this.#state !== undefined) this.#show(ofState(this.#state))
+    else if (endCode === undefined) this.#show(ofCode(code))
+    // The number has to be in it, so it comes in the language of the runtime.
+    else this.#show({ ...ofCode(code), text: this.texts('status.endCode', { code: endCodeText(endCode) }) })
+  }
+
+  /** A successor with the same id may be running already: it is its status now. */
+  close(): void {
+    this.#closed = true
+  }
+
+  #show(status: NodeStatus): void {
+    const text = JSON.stringify(status)
+    if (this.#closed || text === this.#shown) return
+    this.#shown = text
+    this.node.status(status)
+  }
+}

@@ -1,0 +1,54 @@
+// What a connection is told and what it tells.
+import type { PlcError } from '../errors'
+import type { Exchange, Framing, RequestFrame } from '../link/link'
+import type { Clock } from '../transport/clock'
+import type { OpenTransport } from '../transport/transport'
+import type { ConnectionStateName, SupervisorOptions } from './supervisor'
+
+/** A frame as it went over the wire. */
+export interface TracedFrame {
+  /** Milliseconds since 1970. */
+  readonly time: number
+  readonly direction: 'sent' | 'received'
+  readonly bytes: Buffer
+}
+
+/** The state of a connection, for people and programs. */
+export interface ConnectionState {
+  readonly name: ConnectionStateName
+  /** Milliseconds since 1970. */
+  readonly since: number
+  /** Attempts since the last connection that worked. */
+  readonly attempt: number
+  /** Why there is no connection. */
+  readonly error?: PlcError
+  /** Milliseconds since 1970: when the next attempt starts. */
+  readonly nextAttempt?: number
+}
+
+/** What is known about a silence, for whoever explains it. */
+export interface Silence {
+  /** What was tried, e.g. `tcp 192.168.3.39:5007`. */
+  readonly peer: string
+  /** Whether this PLC ever answered this client. */
+  readonly answeredBefore: boolean
+}
+
+export interface ConnectionOptions<Head> {
+  readonly framing: Framing<Head>
+  readonly openTransport: OpenTransport
+  readonly clock: Clock
+  readonly supervisor: SupervisorOptions
+  readonly inFlight: number
+  readonly queueLimit: number
+  /** ms */
+  readonly connectTimeout: number
+  /** Default deadline of a call, ms. */
+  readonly timeout: number
+  /** The first request on a new connection. Any answer to it, also a refusal, proves that the PLC is there. */
+  readonly probe: () => Exchange<Head, unknown>
+  /** Ranked causes, most likely first. */
+  readonly explainSilence: (silence: Silence) => readonly string[]
+  readonly onState: (state: ConnectionState) => void
+  readonly onUnsolicited: (frame: RequestFrame<Head>) => void
+}

@@ -1,0 +1,255 @@
+/**
+ * A prepared write: everything is checked and encoded before the first request, the requests are sent one after another
+ * in the order of the entries, and nothing that may have been carried out is ever sent again.
+ */
+import { ClosedError, EndCodeError, PlcError, RequestError } from '../errors'
+import { explainEndCode } from '../melsec/end-code'
+import type { MelsecProtocol } from '../melsec/protocol'
+import type { ParsedItem, RefusedItem } from './item'
+import { Areas } from './plan-layout'
+import { about } from './plan-read-shape'
+import { describePrepared, type PlanDescription, planText, type Send } from './plan-request'
+import { alone, batchesOf } from './plan-write-batch'
+import { prepareWrite, type WriteContext, type WriteStep } from './plan-write-request'
+import { unitsOf, type WriteUnit, type WriteValue, writtenTwice } from './plan-write-unit'
+
+export interface WriteEntry {
+  readonly item: ParsedItem | RefusedItem
+  readonly value: WriteValue
+}
+
+/** What became of one entry. `error.outcome` says whether the PLC may have been changed. */
+export type WriteResult =
+  | { readonly item: string; readonly ok: true }
+  | { readonly item: string; readonly ok: false; readonly error: PlcError }
+
+export interface WriteOptions {
+  /**
+   * Allow bits of words (`D100.3`): the word is read, changed and written back. That is not one step for the PLC: what
+   * its program changes in the word in between is lost. Bits of the same word that follow one another are set together.
+   */
+  readonly readModifyWrite?: boolean
+  /** Send nothing when one entry is bad, and nothing more after the first failure. */
+  readonly allOrNothing?: boolean
+}
+
+export interface PlanWriteOptions extends WriteOptions {
+  /** Notation of X and Y in descriptions; default: the profile's. */
+  readonly xyRadix?: 8 | 16
+}
+
+/**
+ * The requests that write the entries, in their order. Entries that cannot be written keep their error.
+ *
+ * @example const plan = planWrite([{ item: parseItem('D100:REAL', options), value: 1.5 }], protocol)
+ */
+export function planWrite<Head>(
+  entries: readonly WriteEntry[],
+  protocol: MelsecProtocol<Head>,
+  options: PlanWriteOptions = {},
+): WritePlan<Head> {
+  return new WritePlan(entries, protocol, options)
+}
+
+export class WritePlan<Head> {
+  readonly #context: WriteContext<Head>
+  readonly #areas: Areas
+  readonly #entries: readonly WriteEntry[]
+  readonly #options: PlanWriteOptions
+  readonly #errors = new Map<number, PlcError>()
+  readonly #units: readonly WriteUnit[]
+  readonly #steps: readonly WriteStep<Head>[]
+
+  constructor(entries: readonly WriteEntry[], protocol: MelsecProtocol<Head>, options: PlanWriteOptions) {
+    this.#areas = new Areas(protocol, 'write')
+    this.#context = {
+      protocol,
+      readAreas: new Areas(protocol, 'read'),
+      options: { xyRadix: options.xyRadix ?? protocol.profile.xyRadix },
+    }
+    this.#entries = entries
+    this.#options = options
+    const units = entries.flatMap((entry, index) => this.#unitsOf(entry, index))
+    this.#refuseDoubles()
+    if (options.allOrNothing === true) this.#refuseAll()
+    this.#units = units.filter(({ entry }) => !this.#errors.has(entry))
+    this.#steps = batchesOf(protocol, this.#units).map((batch) => prepareWrite(this.#context, batch))
+  }
+
+  #unitsOf({ item, value }: WriteEntry, index: number): WriteUnit[] {
+    if ('error' in item) {
+      this.#errors.set(index, item.error)
+      return []
+    }
+    try {
+      const units = unitsOf(this.#areas, item, value, index, this.#options.readModifyWrite === true)
+      for (const unit of units) prepareWrite(this.#context, alone(this.#areas.protocol, unit))
+      return units
+    } catch (error) {
+      if (!(error instanceof RequestError)) throw error
+      this.#errors.set(index, about(item, error))
+      return []
+    }
+  }
+
+  #refuseDoubles(): void {
+    const written = this.#entries.flatMap(({ item }, entry) =>
+      'error' in item || this.#errors.has(entry) ? [] : [{ entry, item }],
+    )
+    for (const [entry, error] of writtenTwice(this.#areas, written)) this.#errors.set(entry, error)
+  }
+
+  #refuseAll(): void {
+    const [first] = [...this.#errors.values()]
+    if (first === undefined) return
+    this.#entries.forEach(({ item }, entry) => {
+      if (this.#errors.has(entry)) return
+      const message = `${item.text} was not written, because all or nothing shall be: ${first.message}`
+      this.#errors.set(entry, new ClosedError('ABORTED', message, 'notSent', first))
+    })
+  }
+
+  /**
+   * Writes all entries once, one request after another.
+   *
+   * - A merged request that is refused because of a device was not carried out: its entries are written one by one.
+   *   Any other end code goes to all its entries, and the next request is sent.
+   * - After any other failure nothing more is sent: the entries left over get an error with the outcome `notSent`.
+   *
+   * @param send what it rejects with is a `PlcError`
+   * @returns a result for each entry, in their order; it rejects only with what is no `PlcError`, which is a bug
+   */
+  async run(send: Send<Head>): Promise<WriteResult[]> {
+    const run = new Run<Head>(this.#entries, this.#errors, this.#options.allOrNothing === true)
+    for (const step of this.#steps) {
+      const refusal = await run.attempt(step, send)
+      if (refusal === undefined) continue
+      if (!run.goesOnApart(step, refusal)) run.fail(step, refusal)
+      else for (const single of this.#apart(step)) await this.#single(single, run, send)
+    }
+    return run.results()
+  }
+
+  async #single(step: WriteStep<Head>, run: Run<Head>, send: Send<Head>): Promise<void> {
+    const refusal = await run.attempt(step, send)
+    if (refusal !== undefined) run.fail(step, refusal)
+  }
+
+  #apart({ units }: WriteStep<Head>): WriteStep<Head>[] {
+    return units.map((unit) => prepareWrite(this.#context, alone(this.#areas.protocol, unit)))
+  }
+
+  describe(): PlanDescription {
+    const requests = this.#steps.flatMap(({ units, prepared }) => {
+      const items = [...new Set(units.map(({ entry }) => this.#text(entry)))]
+      return prepared.map((one) => describePrepared(this.#context.protocol, one, items))
+    })
+    return { requests, notes: this.#notes() }
+  }
+
+  #text(entry: number): string {
+    return this.#entries[entry]?.item.text ?? ''
+  }
+
+  #notes(): string[] {
+    const parts = new Map<number, number>()
+    const masked = new Set<number>()
+    for (const { entry, isPart, content } of this.#units) {
+      if (isPart) parts.set(entry, (parts.get(entry) ?? 0) + 1)
+      if (content.kind === 'masked') masked.add(entry)
+    }
+    return [
+      ...[...parts].map(
+        ([entry, count]) => `${this.#text(entry)} is written by ${count} requests: the PLC may see it half written.`,
+      ),
+      ...[...masked].map(
+        (entry) =>
+          `${this.#text(entry)} is written with its whole word, read just before: what the PLC program changes in it in between is lost.`,
+      ),
+      ...[...this.#errors].map(([entry, error]) => `${this.#text(entry)} is not written. ${error.message}`),
+    ]
+  }
+
+  toString(): string {
+    return planText(this.describe())
+  }
+}
+
+/** One run: what became of each entry so far. */
+class Run<Head> {
+  readonly #entries: readonly WriteEntry[]
+  readonly #errors: Map<number, PlcError>
+  readonly #allOrNothing: boolean
+  /** Values of each entry that were written. */
+  readonly #written = new Map<number, number>()
+  /** Why nothing more is sent. */
+  #stopped: PlcError | undefined
+
+  constructor(entries: readonly WriteEntry[], errors: ReadonlyMap<number, PlcError>, allOrNothing: boolean) {
+    this.#entries = entries
+    this.#errors = new Map(errors)
+    this.#allOrNothing = allOrNothing
+  }
+
+  /** Sends one request. @returns the end code, when it was refused; other failures are given to the entries. */
+  async attempt(step: WriteStep<Head>, send: Send<Head>): Promise<EndCodeError | undefined> {
+    if (this.#stopped !== undefined) {
+      this.#notSent(step, this.#stopped)
+      return undefined
+    }
+    // The parts of an array: after the first that failed the others are not sent.
+    if (step.units.every(({ entry }) => this.#errors.has(entry))) return undefined
+    try {
+      await step.perform(send)
+      for (const { entry, count } of step.units) this.#written.set(entry, (this.#written.get(entry) ?? 0) + count)
+      return undefined
+    } catch (error) {
+      if (error instanceof EndCodeError) return error
+      if (!(error instanceof PlcError)) throw error
+      // A request that was not permitted says nothing about the next one; everything else is about the connection.
+      if (!(error instanceof RequestError)) this.#stopped = error
+      this.fail(step, error)
+      return undefined
+    }
+  }
+
+  /** Whether a refused request is written again, one entry at a time: it was not carried out, and one is to blame. */
+  goesOnApart({ units }: WriteStep<Head>, { endCode }: EndCodeError): boolean {
+    return units.length > 1 && !this.#allOrNothing && explainEndCode(endCode)?.aboutDevice === true
+  }
+
+  fail(step: WriteStep<Head>, error: PlcError): void {
+    if (this.#allOrNothing) this.#stopped ??= error
+    for (const { entry } of step.units) this.#set(entry, error)
+  }
+
+  #notSent(step: WriteStep<Head>, cause: PlcError): void {
+    for (const { entry } of step.units) {
+      const message = `${this.#text(entry)} was not written, because an earlier request of this write failed: ${cause.message}`
+      this.#set(entry, new ClosedError('ABORTED', message, 'notSent', cause))
+    }
+  }
+
+  #set(entry: number, error: PlcError): void {
+    if (this.#errors.has(entry)) return
+    const written = this.#written.get(entry)
+    this.#errors.set(entry, written === undefined ? error : partlyWritten(this.#text(entry), written, error))
+  }
+
+  #text(entry: number): string {
+    return this.#entries[entry]?.item.text ?? ''
+  }
+
+  results(): WriteResult[] {
+    return this.#entries.map(({ item }, entry) => {
+      const error = this.#errors.get(entry)
+      return error === undefined ? { item: item.text, ok: true } : { item: item.text, ok: false, error }
+    })
+  }
+}
+
+/** A refusal in the middle of an array: the PLC was changed, so `refused` or `notSent` would be a lie. */
+function partlyWritten(text: string, written: number, cause: PlcError): PlcError {
+  const message = `${text}: the first ${written} values were written, the others not. ${cause.message}`
+  return new ClosedError('ABORTED', message, 'unknown', cause)
+}

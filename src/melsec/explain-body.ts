@@ -1,0 +1,203 @@
+// What stands behind the head of a 3E, 4E or 4C frame, in words: the same in all of them.
+import { type AnnotatedRow, type Annotation, annotate, hasSecret, hex, type Leaf } from '../codec/annotate'
+import type { Context, DataCode, Shape } from '../codec/codec'
+import type { Explainer } from '../codec/explanation'
+import type { Command } from './command'
+import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
+import { devicesOf as usedDevices } from './device-uses'
+import { errorInformation } from './error-information'
+import { commandFields, commandText, describeHead, subcommandText } from './explain-head'
+import { describeValue, devicesOf, type Placed, splitRow, summaryOf, type WordsFor } from './explain-values'
+import { FORM_BITS, readSubcommand, subcommandOf } from './form'
+import type { DeviceForm, Profile } from './profile'
+
+type Bag = Readonly<Record<string, unknown>>
+
+/** What is known before a frame is read. */
+export interface Settings extends WordsFor {
+  readonly code: DataCode
+  readonly profile: Profile
+  readonly asciiXy: 'octal' | 'hexadecimal' | undefined
+  readonly asciiZr: 'decimal' | 'hexadecimal' | undefined
+  readonly commands: Readonly<Record<string, Command>>
+}
+
+/** A request as far as its answer needs it. */
+export interface KnownRequest {
+  readonly command: Command
+  /** Bits of the value codecs. */
+  readonly form: number
+  readonly message: Bag
+}
+
+interface Recognised {
+  readonly command: Command
+  readonly form: DeviceForm
+}
+
+/** The command that a command and a subcommand number name. */
+function recognise({ commands, profile }: Settings, code: number, subcommand: number): Recognised | undefined {
+  const device = readSubcommand(subcommand)
+  for (const command of Object.values(commands)) {
+    if (command.code !== code) continue
+    if (command.unit === 'none') {
+      if (subcommand === subcommandOf(command, 'short', profile)) return { command, form: 'short' }
+    } else if (device?.unit === command.unit) return { command, form: device.form }
+  }
+  return undefined
+}
+
+/** Digits of X, Y and ZR in ASCII code are a setting of the port: bits of the value codecs. */
+function digitBits({ code, profile, asciiXy, asciiZr }: Settings): number {
+  if (code !== 'ascii') return 0
+  const octal = asciiXy === undefined ? profile.xyRadix === 8 : asciiXy === 'octal'
+  return (octal ? FORM_XY_OCTAL : 0) | (asciiZr === 'hexadecimal' ? FORM_ZR_HEX : 0)
+}
+
+/** The body of a request read without words, for the answer to it; `undefined` when it is none. */
+export function readRequestBody(body: Buffer, settings: Settings): KnownRequest | undefined {
+  const { code } = settings
+  const head = annotate(commandFields, body, { code })
+  const found = recognise(settings, Number(head.message.command), Number(head.message.subcommand))
+  if (head.fault !== undefined || found === undefined) return undefined
+  const form = FORM_BITS[found.form] | digitBits(settings)
+  const data: Annotation = annotate(found.command.request, body.subarray(head.used), { code, form })
+  return data.fault === undefined ? { command: found.command, form, message: data.message } : undefined
+}
+
+/** What a body turned out to be. */
+export interface ExplainedBody {
+  readonly command: Command | undefined
+  /** e.g. `Read (word units), D100, 10 points` */
+  readonly title: string
+  /** What could not be read of it must not be shown. */
+  readonly secret: boolean
+}
+
+/** Reads command, subcommand and data of a request. */
+export function explainRequestBody(explainer: Explainer, settings: Settings): ExplainedBody {
+  let found: Recognised | undefined
+  const start = explainer.position
+  const { command: code, subcommand } = annotate(commandFields, explainer.ahead(), { code: settings.code }).message
+  if (typeof code === 'number' && typeof subcommand === 'number') found = recognise(settings, code, subcommand)
+  explainer.read(commandFields, ({ name, value }) => {
+    if (name === 'command') return commandText(Number(value), found?.command ?? named(settings, value))
+    return subcommandText(Number(value), found?.command.unit)
+  })
+  if (explainer.fault !== undefined) return { command: undefined, title: 'cut short', secret: false }
+  if (found === undefined) return explainUnknown(explainer, start, Number(code), Number(subcommand))
+  return explainKnown(explainer, settings, found)
+}
+
+function explainUnknown(explainer: Explainer, start: number, code: number, subcommand: number): ExplainedBody {
+  const name = `command ${hex(code, 4)}H, subcommand ${hex(subcommand, 4)}H`
+  explainer.notes.push(`No command is known here for ${name} (byte ${start}); its data is left as it is.`)
+  explainer.take(explainer.remaining, { name: 'data', kind: 'bytes', text: 'data of an unknown command' })
+  return { command: undefined, title: name, secret: false }
+}
+
+function explainKnown(explainer: Explainer, settings: Settings, { command, form }: Recognised): ExplainedBody {
+  const bits = FORM_BITS[form] | digitBits(settings)
+  const message = readData(explainer, settings, command.request, { form: bits })
+  const summary = summaryOf(command, message, settings)
+  noteUncertainDigits(explainer, settings, command, message)
+  return {
+    command,
+    title: summary === '' ? command.title : `${command.title}, ${summary}`,
+    secret: hasSecret(command.request),
+  }
+}
+
+/** Reads the data of an answer: with the request field by field, without it as words. */
+export function explainResponseBody(
+  explainer: Explainer,
+  settings: Settings,
+  request: KnownRequest | undefined,
+  registration: KnownRequest | undefined,
+): ExplainedBody {
+  if (request === undefined) {
+    explainRaw(explainer, settings)
+    return { command: undefined, title: '', secret: false }
+  }
+  const { command, form } = request
+  const context = contextOf(settings, request, registration)
+  if (context === undefined) {
+    explainer.notes.push(`The values of ${command.title} have no names: give the request that registered the devices.`)
+    explainRaw(explainer, settings, true)
+  } else readData(explainer, settings, command.response, { form, context })
+  const summary = summaryOf(command, request.message, settings)
+  return {
+    command,
+    title: summary === '' ? command.title : `${command.title}, ${summary}`,
+    secret: hasSecret(command.response) || hasSecret(command.request),
+  }
+}
+
+/** The request an answer's shape refers to: for Execute Monitor the registration before it. */
+function contextOf(
+  { commands }: Settings,
+  { command, message }: KnownRequest,
+  registration: KnownRequest | undefined,
+): Context | undefined {
+  if (command.context === undefined) return { shape: command.request, message }
+  if (registration === undefined || registration.command.name !== command.context) return undefined
+  const shape = commands[command.context]?.request
+  return shape === undefined ? undefined : { shape, message: registration.message }
+}
+
+function readData(
+  explainer: Explainer,
+  settings: Settings,
+  shape: Shape,
+  options: { readonly form: number; readonly context?: Context },
+): Bag {
+  return explainer.read(
+    shape,
+    (leaf: Leaf) => describeValue(leaf, settings),
+    options,
+    (row, bytes, message) => {
+      const placed: Placed = { shape, message, ...options }
+      return splitRow(row, bytes, settings, devicesOf(row.name, placed, settings))
+    },
+  )
+}
+
+/** Answer data without its request: words as far as they are whole words, else bytes. */
+function explainRaw(explainer: Explainer, settings: Settings, noted = false): void {
+  if (explainer.remaining === 0) return
+  if (!noted) explainer.notes.push('What the values mean is in the request: give it to have them named.')
+  const count = explainer.remaining / (2 * explainer.unit)
+  const words: Shape = { data: { kind: 'words', count } }
+  const split = (row: AnnotatedRow, bytes: Buffer) => splitRow(row, bytes, settings, undefined)
+  const readable =
+    Number.isInteger(count) && annotate(words, explainer.ahead(), { code: settings.code }).fault === undefined
+  if (readable) explainer.read(words, () => undefined, {}, split)
+  else explainer.take(explainer.remaining, { name: 'data', kind: 'bytes', text: 'no whole number of words' })
+}
+
+/** Reads what stands behind an end code: which station refused which command. */
+export function explainErrorInformation(explainer: Explainer, settings: Settings): Bag {
+  const { command, subcommand } = annotate(errorInformation, explainer.ahead(), { code: settings.code }).message
+  const found = recognise(settings, Number(command), Number(subcommand))?.command
+  return explainer.read(errorInformation, (leaf) => {
+    if (leaf.name === 'command') return commandText(Number(leaf.value), found ?? named(settings, leaf.value))
+    return leaf.name === 'subcommand' ? subcommandText(Number(leaf.value), found?.unit) : describeHead(leaf)
+  })
+}
+
+/** A command of this number, whatever its subcommand. */
+function named({ commands }: Settings, code: unknown): Command | undefined {
+  return Object.values(commands).find((command) => command.code === code)
+}
+
+/** Says which setting of the port an address depends on, when nobody has said it. */
+function noteUncertainDigits(explainer: Explainer, settings: Settings, command: Command, message: Bag): void {
+  if (settings.code !== 'ascii') return
+  const used = usedDevices(command, message).map(({ address }) => address.device)
+  if (settings.asciiXy === undefined && settings.profile.xyRadix === 8 && (used.includes('X') || used.includes('Y'))) {
+    explainer.notes.push('X and Y are read as octal digits; if the port is set to "ASCII (X,Y HEX)", say asciiXy.')
+  }
+  if (settings.asciiZr === undefined && used.includes('ZR')) {
+    explainer.notes.push('ZR is read as decimal digits; the manuals disagree, see asciiZr.')
+  }
+}

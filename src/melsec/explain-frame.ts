@@ -1,0 +1,287 @@
+// A captured frame in words, field by field: for the command line, for traces, for people with a protocol analyser.
+import { MASK } from '../codec/annotate'
+import { type DataCode, field, type Shape } from '../codec/codec'
+import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../codec/explanation'
+import type { Command } from './command'
+import { commands } from './commands/commands'
+import { explain1e } from './explain-1e'
+import { explain4c } from './explain-4c'
+import {
+  explainErrorInformation,
+  explainRequestBody,
+  explainResponseBody,
+  type KnownRequest,
+  readRequestBody,
+  type Settings,
+} from './explain-body'
+import { describeHead, endCodeText } from './explain-head'
+import { frame3e } from './frame-3e'
+import { type Profile, type ProfileId, resolveProfile } from './profile'
+import { ownStation } from './route'
+
+export type { AnnotatedRow, Fault } from '../codec/annotate'
+export { type Direction, type FrameExplanation, formatExplanation } from '../codec/explanation'
+
+/** What is known of the frame; what is left out is found out as far as the bytes tell it. */
+export interface ExplainFrameOptions {
+  /** `4C`: format 5. 1E and 4C must be said; 3E and 4E are told by their subheaders. */
+  readonly frame?: '3E' | '4E' | '1E' | '4C'
+  readonly code?: DataCode
+  readonly direction?: Direction
+  /** Family of the PLC; default `generic`. */
+  readonly profile?: ProfileId | Profile
+  /** How X and Y are written; default: the profile's. */
+  readonly xyRadix?: 8 | 16
+  /** Digits of X and Y in ASCII code; default: as the profile numbers them. */
+  readonly asciiXy?: 'octal' | 'hexadecimal'
+  /** Digits of ZR in ASCII code; default decimal. */
+  readonly asciiZr?: 'decimal' | 'hexadecimal'
+  /** The frame of the request that this response answers: names its values. */
+  readonly request?: Buffer
+  /** The frame of the Entry Monitor Device before it, when the response is one to Execute Monitor. */
+  readonly registration?: Buffer
+  /** Declarations to know instead of all of this package's. */
+  readonly commands?: Readonly<Record<string, Command>>
+}
+
+/**
+ * Explains a frame, also a broken one: then up to where it is wrong. Never throws for what is in the bytes.
+ * @throws RequestError BAD_OPTION when there is no such profile.
+ * @example console.log(formatExplanation(explainFrame(Buffer.from('500000ffff03000c00100001040000640000a80200', 'hex'))))
+ */
+export function explainFrame(bytes: Buffer, options: ExplainFrameOptions = {}): FrameExplanation {
+  const profile = resolveProfile(options.profile ?? 'generic')
+  const known: Known = {
+    profile,
+    xyRadix: options.xyRadix ?? profile.xyRadix,
+    asciiXy: options.asciiXy,
+    asciiZr: options.asciiZr,
+    commands: options.commands ?? commands,
+  }
+  if (options.frame === '1E') return explain1e(bytes, known, options)
+  if (options.frame === '4C') return explain4c(bytes, { ...known, code: 'binary' }, options)
+  const detected = detect(bytes, options)
+  return typeof detected === 'string'
+    ? notAFrame(bytes, detected, hintsFor(bytes))
+    : explain3e(bytes, known, detected, options)
+}
+
+/** Everything but the data code. */
+export type Known = Omit<Settings, 'code'>
+
+// --- which frame it is
+
+interface Subheader {
+  readonly frame: '3E' | '4E'
+  readonly code: DataCode
+  readonly direction: Direction
+  /** What the frame begins with: written by the framing itself. */
+  readonly bytes: Buffer
+}
+
+const SUBHEADERS: readonly Subheader[] = (['3E', '4E'] as const).flatMap((frame) =>
+  (['binary', 'ascii'] as const).flatMap((code) => {
+    const { request, response } = frame3e(frame, code)
+    const head = { route: ownStation, timer: 0 }
+    const size = code === 'ascii' ? 4 : 2
+    const none = Buffer.alloc(0)
+    return [
+      { frame, code, direction: 'request', bytes: request.write(head, 0, none).subarray(0, size) },
+      { frame, code, direction: 'response', bytes: response.write(head, 0, 0, none).subarray(0, size) },
+    ] satisfies Subheader[]
+  }),
+)
+
+/** The subheader the bytes begin with, or why there is none. */
+function detect(bytes: Buffer, { frame, code, direction }: ExplainFrameOptions): Subheader | string {
+  if (bytes.length === 0) return 'there are no bytes'
+  const found = SUBHEADERS.filter((one) => {
+    const size = Math.min(one.bytes.length, bytes.length)
+    return one.bytes.subarray(0, size).equals(bytes.subarray(0, size))
+  })
+  const fitting = found.filter(
+    (one) =>
+      (frame ?? one.frame) === one.frame &&
+      (code ?? one.code) === one.code &&
+      (direction ?? one.direction) === one.direction,
+  )
+  const [first] = fitting
+  if (first !== undefined && fitting.length === 1) return first
+  if (fitting.length > 1) return `${bytes.length} byte(s) are too few to tell the frame`
+  const [other] = found
+  if (other !== undefined && found.length === 1) return `this is the subheader of a ${nameOf(other)}`
+  return `no 3E or 4E subheader, which is ${SUBHEADERS.map(shown).join(', ')}`
+}
+
+function nameOf({ frame, code, direction }: Pick<Subheader, 'frame' | 'code' | 'direction'>): string {
+  return `${frame} ${direction}, ${code === 'ascii' ? 'ASCII' : 'binary'} code`
+}
+
+function shown({ bytes, code }: Subheader): string {
+  return code === 'ascii'
+    ? JSON.stringify(bytes.toString('latin1'))
+    : bytes.toString('hex').replace(/..\B/g, '$& ').toUpperCase()
+}
+
+/** What else the bytes may be. */
+function hintsFor(bytes: Buffer): readonly string[] {
+  if (bytes[0] === 0x10 && bytes[1] === 0x02) return ['They begin like a 4C frame in format 5: say frame 4C.']
+  if ((bytes[0] === 0x47 || bytes[0] === 0x45) && bytes[1] === 0)
+    return ['They begin like a Sharp JW message: say frame JW.']
+  const first = bytes[0] ?? 0
+  if ((first & 0x7f) <= 0x3f) return ['A 1E frame has no mark of its own: if it is one, say frame 1E.']
+  return []
+}
+
+// --- 3E and 4E
+
+const { bytes: bytesOf, fixed, u16, u8 } = field
+
+/** What stands in front of the body (SLMP reference manual 4.1, 4.2); a test holds it against the framing. */
+function headOf({ frame, direction }: Subheader): Shape {
+  return {
+    subheader: bytesOf(2),
+    ...(frame === '4E' ? { serial: u16(), reserved: fixed(0, 2) } : {}),
+    network: u8(),
+    station: u8(),
+    moduleIo: u16(),
+    multidrop: u8(),
+    dataLength: u16(),
+    ...(direction === 'request' ? { monitoringTimer: u16() } : {}),
+  }
+}
+
+function explain3e(bytes: Buffer, known: Known, detected: Subheader, options: ExplainFrameOptions): FrameExplanation {
+  const { frame, code, direction } = detected
+  const settings: Settings = { ...known, code }
+  const explainer = new Explainer(bytes, code)
+  const lengthEnd = endOfLength(bytes, detected)
+  const head = explainer.read(headOf(detected), (leaf) => {
+    if (leaf.name === 'subheader') return nameOf(detected)
+    if (leaf.name === 'dataLength') return lengthText(Number(leaf.value), bytes.length - lengthEnd)
+    return describeHead(leaf)
+  })
+  const announced = typeof head.dataLength === 'number' ? head.dataLength : undefined
+  if (announced !== undefined) checkLength(explainer, announced, lengthEnd, bytes.length)
+  const about = { frame, code, direction, ...(typeof head.serial === 'number' ? { serial: head.serial } : {}) }
+  const rest =
+    direction === 'request'
+      ? explainRequest(explainer, settings)
+      : explainResponse(explainer, settings, options, about.serial)
+  if (announced !== undefined && lengthEnd + announced > bytes.length) {
+    explainer.cutShort(lengthEnd + announced - bytes.length, announced)
+  }
+  const title = [nameOf(detected), rest.title].filter((part) => part !== '').join(': ')
+  return explainer.end({ title, ...about, ...rest.about }, bytes.length, rest.secret)
+}
+
+/** Where the data length ends: what it counts begins there. */
+function endOfLength(bytes: Buffer, { frame, code }: Subheader): number {
+  const size = (frame === '4E' ? 13 : 9) * (code === 'ascii' ? 2 : 1)
+  return Math.min(size, bytes.length)
+}
+
+function lengthText(announced: number, present: number): string {
+  if (announced === present) return `${announced} (bytes that follow)`
+  return present < announced
+    ? `${announced} (but only ${present} bytes follow)`
+    : `${announced} (bytes that follow; ${present - announced} more stand behind the frame)`
+}
+
+/** The data length says where the frame ends. */
+function checkLength(explainer: Explainer, announced: number, lengthEnd: number, total: number): void {
+  if (lengthEnd + announced < explainer.position) {
+    explainer.fail(
+      lengthEnd - 2 * explainer.unit,
+      `data length ${announced} is shorter than what must follow`,
+      'dataLength',
+    )
+    explainer.limit(explainer.position)
+  } else explainer.limit(Math.min(total, lengthEnd + announced))
+}
+
+interface Rest {
+  readonly title: string
+  readonly secret: boolean
+  readonly about: Pick<FrameExplanation, 'command' | 'endCode'>
+}
+
+function explainRequest(explainer: Explainer, settings: Settings): Rest {
+  const { command, title, secret } = explainRequestBody(explainer, settings)
+  return { title, secret, about: command === undefined ? {} : { command: command.name } }
+}
+
+function explainResponse(
+  explainer: Explainer,
+  settings: Settings,
+  options: ExplainFrameOptions,
+  serial: number | undefined,
+): Rest {
+  const asked = requestOf(explainer, options.request, settings, serial, 'request')
+  const registered = requestOf(explainer, options.registration, settings, undefined, 'registration')
+  const command = asked?.command
+  const about = command === undefined ? {} : { command: command.name }
+  const { endCode } = explainer.read({ endCode: u16() }, ({ value }) => endCodeText(Number(value), 4, command?.name))
+  if (typeof endCode !== 'number') return { title: 'cut short', secret: false, about }
+  if (endCode === 0) {
+    const { title, secret } = explainResponseBody(explainer, settings, asked, registered)
+    return { title, secret, about: { ...about, endCode } }
+  }
+  explainRefusal(explainer, settings, asked)
+  return {
+    title: `refused${command === undefined ? '' : ` (${command.title})`}`,
+    secret: false,
+    about: { ...about, endCode },
+  }
+}
+
+/** Error information; devices exist that shorten it or leave it out. */
+function explainRefusal(explainer: Explainer, settings: Settings, asked: KnownRequest | undefined): void {
+  if (explainer.remaining === 0) return
+  const found = explainErrorInformation(explainer, settings)
+  if (asked !== undefined && typeof found.command === 'number' && found.command !== asked.command.code) {
+    explainer.notes.push('The error information is about another command than the request that was given.')
+  }
+}
+
+/** The request of an answer from its own frame; says why when it is none. */
+function requestOf(
+  explainer: Explainer,
+  bytes: Buffer | undefined,
+  settings: Settings,
+  serial: number | undefined,
+  option: string,
+): KnownRequest | undefined {
+  if (bytes === undefined) return undefined
+  const found = SUBHEADERS.filter(({ direction }) => direction === 'request').find((one) =>
+    one.bytes.equals(bytes.subarray(0, one.bytes.length)),
+  )
+  const scanned = found && scanned3e(found, bytes)
+  const request = scanned && readRequestBody(scanned.body, settings)
+  if (request === undefined) explainer.notes.push(`The frame given as ${option} is no request that can be read.`)
+  if (serial !== undefined && scanned?.serial !== undefined && scanned.serial !== serial) {
+    explainer.notes.push(`The request has serial number ${scanned.serial}: this does not answer it.`)
+  }
+  return request
+}
+
+function scanned3e(
+  { frame, code }: Subheader,
+  bytes: Buffer,
+): { body: Buffer; serial: number | undefined } | undefined {
+  try {
+    return frame3e(frame, code).request.scan(bytes, () => undefined)?.frame
+  } catch {
+    // Not a frame: the caller says so.
+    return undefined
+  }
+}
+
+/** The bytes of a frame without its secrets: asterisks in their place, everything else as it is. */
+export function maskSecrets(bytes: Buffer, explanation: FrameExplanation | undefined): Buffer {
+  const secrets = explanation?.rows.filter((row) => row.secret === true) ?? []
+  if (secrets.length === 0) return bytes
+  const masked = Buffer.from(bytes)
+  for (const { offset, length } of secrets) masked.fill(MASK[0] ?? '*', offset, offset + length)
+  return masked
+}

@@ -1,0 +1,77 @@
+// Words for what stands around the data of a command: route, timer, end code, command and subcommand.
+import { hex, type Leaf } from '../codec/annotate'
+import { type Declaration, field, type Shape } from '../codec/codec'
+import type { CommandName } from './commands/commands'
+import { explainEndCode } from './end-code'
+import { readSubcommand } from './form'
+import type { DeviceForm } from './profile'
+import { moduleIoNumbers, ownStation } from './route'
+
+const { u16 } = field
+
+/** In front of the data of every request of the SLMP set. */
+export const commandFields = { command: u16(), subcommand: u16() } as const satisfies Shape
+
+/** A field of a head in words, by its name; `undefined` for one that is no field of a head. */
+export function describeHead({ name, value }: Leaf): string | undefined {
+  if (typeof value !== 'number') return undefined
+  switch (name) {
+    case 'network':
+      return value === ownStation.network ? '0 (network of the connected station)' : `${value}`
+    case 'station':
+      return value === ownStation.station ? '255 (FFH: the connected station)' : `${value} (${hex(value, 2)}H)`
+    case 'pc':
+      return value === 0xff ? '255 (FFH: the connected station)' : `${value} (${hex(value, 2)}H)`
+    case 'moduleIo':
+      return moduleIoText(value)
+    case 'multidrop':
+      return value === 0 ? '0 (no multidrop station)' : `${value}`
+    case 'monitoringTimer':
+      return value === 0 ? '0 (the PLC waits for ever)' : `${value} (${value * 250} ms)`
+    case 'serial':
+      return `${value} (${hex(value, 4)}H)`
+    case 'reserved':
+      return 'fixed'
+    case 'frameId':
+      return `${hex(value, 2)}H (4C frame)`
+    case 'responseId':
+      return `${hex(value, 4)}H (answer)`
+    default:
+      return undefined
+  }
+}
+
+function moduleIoText(value: number): string {
+  const named = moduleIoNumbers.find(({ number }) => number === value)
+  return `${hex(value, 4)}H (${named?.title ?? `start I/O number ${hex(value, 3)}0H`})`
+}
+
+/** An end code in words: meaning, likely cause, remedy. `digits`: 4, in a 1E frame 2. */
+export function endCodeText(endCode: number, digits: number, command?: string): string {
+  const code = `${hex(endCode, digits)}H`
+  if (endCode === 0) return `${code} (carried out)`
+  // Names of other command sets have no hints: asking with one finds none.
+  const text = explainEndCode(endCode, command === undefined ? {} : { command: command as CommandName })
+  if (text === undefined) return `${code} (refused; no text is known for this code)`
+  return [`${code} (refused)`, text.meaning, ...(text.cause === undefined ? [] : [text.cause]), text.remedy].join(' ')
+}
+
+const FORM_TEXT: Readonly<Record<DeviceForm, string>> = {
+  short: 'device code and number in the short form',
+  long: 'device code and number in the long (iQ-R) form',
+  extendedShort: 'extended device specification, short form',
+  extendedLong: 'extended device specification, long (iQ-R) form',
+}
+
+/** A subcommand in words; `unit` is the command's, which may not depend on devices. */
+export function subcommandText(subcommand: number, unit: 'bit' | 'word' | 'none' | undefined): string {
+  const code = `${hex(subcommand, 4)}H`
+  if (unit === 'none') return code
+  const read = readSubcommand(subcommand)
+  return read === undefined ? code : `${code} (${read.unit} units, ${FORM_TEXT[read.form]})`
+}
+
+/** The command of a number in words. */
+export function commandText(code: number, command: Pick<Declaration, 'title'> | undefined): string {
+  return `${hex(code, 4)}H (${command?.title ?? 'no command that is known here'})`
+}
