@@ -15,12 +15,13 @@ export function tell(message) {
  */
 export function endWithParent(close) {
   let ending = false
-  const end = async () => {
+  const end = () => {
     if (ending) return
     ending = true
     setTimeout(() => process.exit(0), LONGEST_END).unref()
-    await close().catch((error) => console.error(error))
-    process.exit(0)
+    close()
+      .catch((error) => console.error(error))
+      .finally(() => process.exit(0))
   }
   // These reach every process of a terminal at once: they are left to the parent, which knows the order.
   for (const signal of ['SIGINT', 'SIGHUP', 'SIGBREAK']) process.on(signal, () => process.connected || end())

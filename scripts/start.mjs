@@ -1,13 +1,14 @@
 // npm start: sets up, starts the simulated plant and Node-RED with the demo flow, and says where to look.
 // Ctrl-C ends all of it. When one of the two processes ends by itself, the other is ended too: exit code 1.
+//   npm start -- <folder>          keeps the files of the demo there instead of .demo
 import { fork } from 'node:child_process'
 import { once } from 'node:events'
-import { join, relative } from 'node:path'
+import { join, relative, resolve } from 'node:path'
 import { plcs } from '../demo/plcs.mjs'
 import { main, root, SetupError, setup } from './setup.mjs'
 
-/** Everything the demo writes; ignored by git. */
-const folder = join(root, '.demo')
+/** Everything the demo writes; .demo is ignored by git. */
+const folder = resolve(process.argv[2] ?? join(root, '.demo'))
 const READY_TIME = 90_000
 const ANSWER_TIME = 10_000
 /** More than the children allow themselves, less than a person waits. */
@@ -79,7 +80,9 @@ async function endAll() {
 async function check(what, url) {
   const answer = await fetch(url, { signal: AbortSignal.timeout(ANSWER_TIME) }).catch((error) => error)
   if (answer.status === 200) return
-  throw new SetupError(`${what} does not answer at ${url} (${answer.status ?? answer.cause?.message ?? answer.message}).`)
+  throw new SetupError(
+    `${what} does not answer at ${url} (${answer.status ?? answer.cause?.message ?? answer.message}).`,
+  )
 }
 
 /** Asks the PLC what it is, as the flow's connection does. */
@@ -122,7 +125,7 @@ function announcement(red, ports, models) {
     '',
     ...plcs.flatMap(({ id, title, usualPort }) => replaced(`the simulated ${title}`, usualPort, ports[id].port)),
     ...replaced('Node-RED', red.usualPort, red.port),
-    ...(red.kept ? [`The flow you changed is kept; remove ${relative(root, red.userDir)} for the original one.`] : []),
+    ...(red.kept ? [`The flow you changed is kept; remove ${relative('.', red.userDir)} for the original one.`] : []),
     'The demo runs. Simulated PLCs:',
     ...simulated,
     '',

@@ -1,6 +1,10 @@
-// Makes demo/flow.json: `node demo/flow/build.mjs` after a change here or in the demo plant's tags.
-import { writeFileSync } from 'node:fs'
-import { pathToFileURL } from 'node:url'
+// Makes demo/flow.json, after a change here or in the demo plant's tags.
+//   node demo/flow/build.mjs            writes it
+//   node demo/flow/build.mjs --check    exit code 1 when it is not what this would write
+import { execFileSync } from 'node:child_process'
+import { readFileSync, writeFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
+import { isDeepStrictEqual } from 'node:util'
 import { demoPlantTags } from '../../dist/src/index.js'
 import { flowPath } from '../flow-file.mjs'
 import { plcs } from '../plcs.mjs'
@@ -8,11 +12,21 @@ import { dashboard, lookTab } from './dashboard.mjs'
 import { connection, plcTab } from './plc-tab.mjs'
 
 /** The flow as Node-RED stores it. */
-export function demoFlow() {
+function demoFlow() {
   const tabs = plcs.flatMap((plc) => plcTab(plc, demoPlantTags[plc.profile]))
   return [...tabs, ...lookTab(), ...plcs.map(connection), ...dashboard()]
 }
 
-if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) {
-  writeFileSync(flowPath, `${JSON.stringify(demoFlow(), null, 2)}\n`)
+function write(flow) {
+  writeFileSync(flowPath, `${JSON.stringify(flow, null, 2)}\n`)
+  // As every file here is, or the lint check fails.
+  const biome = createRequire(import.meta.url).resolve('@biomejs/biome/bin/biome')
+  execFileSync(process.execPath, [biome, 'format', '--write', flowPath], { stdio: 'inherit' })
+}
+
+const flow = demoFlow()
+if (!process.argv.includes('--check')) write(flow)
+else if (!isDeepStrictEqual(JSON.parse(readFileSync(flowPath, 'utf8')), JSON.parse(JSON.stringify(flow)))) {
+  console.error('demo/flow.json is out of date: run node demo/flow/build.mjs')
+  process.exitCode = 1
 }

@@ -23,7 +23,7 @@ export const groupId = (plc, name) => `${plc.id}-group-${name}`
 const pageId = (plc) => `${plc.id}-page`
 
 export function text(file) {
-  return readFileSync(new URL(file, import.meta.url), 'utf8')
+  return readFileSync(new URL(file, import.meta.url), 'utf8').replaceAll(/^\/\* biome-ignore.*\n/gm, '')
 }
 
 export function dashboard() {

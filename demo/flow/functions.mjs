@@ -5,7 +5,8 @@
  * First output: the head. Second: asks the CPU for its model after each new connection.
  */
 export function connectionState(msg, context) {
-  const state = context.get('state') ?? { name: 'connecting', reason: '', model: '', roundTrip: null, cpu: '' }
+  const begin = { name: 'connecting', reason: '', model: '', roundTrip: null, cpu: '', hasValues: false }
+  const state = context.get('state') ?? begin
   const wasConnected = state.name === 'connected'
   const cpuStates = ['RUN', '', 'STOP', 'PAUSE']
   if (msg.status !== undefined) {
@@ -15,7 +16,7 @@ export function connectionState(msg, context) {
     if (state.name !== 'offline') state.reason = ''
   } else if (msg.error !== undefined) {
     // Caught from the nodes that ask by themselves: why there are no values.
-    state.reason = msg.error.message
+    state.reason = msg.error.cause?.message ?? msg.error.message
   } else if (msg.payload?.command === 'identify') {
     state.model = msg.payload.model
   } else if (msg.payload?.command === 'selfTest') {
@@ -24,6 +25,7 @@ export function connectionState(msg, context) {
     // Values have been read. SD203 says in its lower four bits what the CPU does.
     state.name = 'connected'
     state.reason = ''
+    state.hasValues = true
     state.cpu = cpuStates[msg.payload.cpuState & 15] ?? ''
   }
   if (state.name !== 'connected') Object.assign(state, { roundTrip: null, cpu: '' })
@@ -51,13 +53,14 @@ export function setPointsThatChanged(msg, context) {
 
 /** Function node "What went wrong": a caught error as a notification. */
 export function whatWentWrong(msg) {
-  const { outcome } = msg.error.cause ?? {}
   const outcomes = {
     notSent: 'Nothing was sent.',
     refused: 'The PLC refused it.',
     unknown: 'Whether it was carried out is not known.',
   }
-  return { payload: `${msg.error.message} ${outcomes[outcome] ?? ''}`, ui_update: { color: '#b3261e' } }
+  const { message = msg.error.message, outcome } = msg.error.cause ?? {}
+  const sentence = message.endsWith('.') ? message : `${message}.`
+  return { payload: `${sentence} ${outcomes[outcome] ?? ''}`, ui_update: { color: '#b3261e' } }
 }
 
 /** Function node "Done": a remote control command that the PLC has carried out, as a notification. */

@@ -96,7 +96,11 @@ function poll({ canvas, tags, group, uses, filled }) {
       max: 1000,
       segments: [{ from: 0, color: LEVEL_COLOUR }],
     }),
-    widgets.text(group('tank'), { id: 'level-text', label: 'Level', value: "$formatNumber(payload.level, '0') & ' l'" }),
+    widgets.text(group('tank'), {
+      id: 'level-text',
+      label: 'Level',
+      value: "$formatNumber(payload.level, '0') & ' l'",
+    }),
     widgets.gauge(group('heat'), {
       id: 'temperature',
       name: 'Temperature',
@@ -115,7 +119,14 @@ function poll({ canvas, tags, group, uses, filled }) {
       label: 'Set-point',
       value: "$formatNumber(payload.temperatureSetPoint, '0.0') & ' °C'",
     }),
-    widgets.chart(group('trend'), { id: 'level-trend', order: 1, label: 'Level [l]', series: 'level', ymax: 1000, colour: LEVEL_COLOUR }),
+    widgets.chart(group('trend'), {
+      id: 'level-trend',
+      order: 1,
+      label: 'Level [l]',
+      series: 'level',
+      ymax: 1000,
+      colour: LEVEL_COLOUR,
+    }),
     widgets.chart(group('trend'), {
       id: 'temperature-trend',
       order: 2,
@@ -165,10 +176,26 @@ function control({ uses, ...node }) {
 function state({ canvas, group, uses, filled }) {
   const known = [['connection-state']]
   canvas.frame('state', 'Connection and round trip', { x: 660, y: 20, width: 680, rows: 5 }, [
-    inject({ id: 'every-two', column: 0, row: 0, name: 'every 2 seconds', every: 2, payload: 'selfTest', wires: [['ask']] }),
+    inject({
+      id: 'every-two',
+      column: 0,
+      row: 0,
+      name: 'every 2 seconds',
+      every: 2,
+      payload: 'selfTest',
+      wires: [['ask']],
+    }),
     canvas.linkIn({ id: 'identify-in', column: 0, row: 1, name: 'identify', from: ['identify-out'], wires: [['ask']] }),
     control({ id: 'ask', column: 230, row: 0, name: 'self test, identify', uses, wires: known }),
-    { id: 'status', column: 0, row: 2, type: 'status', name: 'status of the read node', scope: [canvas.name('read')], wires: known },
+    {
+      id: 'status',
+      column: 0,
+      row: 2,
+      type: 'status',
+      name: 'status of the read node',
+      scope: [canvas.name('read')],
+      wires: known,
+    },
     catchNode({
       id: 'silent',
       column: 0,
@@ -233,8 +260,22 @@ function operate({ canvas, tags, group, uses }) {
     }),
   ]
   const buttons = [
-    widgets.button(group('operate'), { id: 'start', order: 1, label: 'Start', topic: 'start', icon: 'play', colour: '#2e7d32' }),
-    widgets.button(group('operate'), { id: 'stop', order: 2, label: 'Stop', topic: 'stop', icon: 'stop', colour: '#5f6b77' }),
+    widgets.button(group('operate'), {
+      id: 'start',
+      order: 1,
+      label: 'Start',
+      topic: 'start',
+      icon: 'play',
+      colour: '#2e7d32',
+    }),
+    widgets.button(group('operate'), {
+      id: 'stop',
+      order: 2,
+      label: 'Stop',
+      topic: 'stop',
+      icon: 'stop',
+      colour: '#5f6b77',
+    }),
     widgets.button(group('operate'), {
       id: 'acknowledge',
       order: 3,
@@ -245,7 +286,14 @@ function operate({ canvas, tags, group, uses }) {
     }),
   ]
   canvas.frame('operate', 'Write what is set or pressed', { x: 20, y: 630, width: 1180, rows: 7 }, [
-    canvas.linkIn({ id: 'values-to-setpoints', column: 0, row: 1, name: 'values', from: ['values-out'], wires: [['setpoints']] }),
+    canvas.linkIn({
+      id: 'values-to-setpoints',
+      column: 0,
+      row: 1,
+      name: 'values',
+      from: ['values-out'],
+      wires: [['setpoints']],
+    }),
     canvas.linkIn({
       id: 'again-in',
       column: 0,
@@ -273,7 +321,11 @@ function operate({ canvas, tags, group, uses }) {
       ...uses,
       values: 'payload',
       valuesType: 'msg',
-      items: rows(tags.filter(({ writable }) => writable)).map((row) => ({ ...row, value: 'payload', valueType: 'msg' })),
+      items: rows(tags.filter(({ writable }) => writable)).map((row) => ({
+        ...row,
+        value: 'payload',
+        valueType: 'msg',
+      })),
       readBack: false,
       readModifyWrite: false,
       wires: [['again-out']],
@@ -292,7 +344,13 @@ function failures({ canvas }) {
       scope: ['write', 'remote'].map(canvas.name),
       wires: [['wrong', 'failed-again-out']],
     }),
-    functionNode(whatWentWrong, { id: 'wrong', column: 240, row: 0, name: 'What went wrong', wires: [['failed-message']] }),
+    functionNode(whatWentWrong, {
+      id: 'wrong',
+      column: 240,
+      row: 0,
+      name: 'What went wrong',
+      wires: [['failed-message']],
+    }),
     widgets.notification(ui, { id: 'failed-message', column: 490, row: 0, name: 'failed' }),
     canvas.linkOut({ id: 'failed-again-out', column: 240, row: 1, name: 'show again', to: ['again-in'] }),
   ])
