@@ -182,7 +182,7 @@ class Walk {
   /** Reads one field with the decoder itself, so that its checks hold here too. */
   #leaf(name: string, field: Exclude<Field, { kind: 'list' | 'each' }>): unknown {
     const { context } = this.#options
-    const value = this.#value(field)
+    const value = this.#value(name.slice(name.lastIndexOf('.') + 1), field)
     const secret = isSecret(field, context)
     const shown = secret ? MASK : value
     const from = this.done
@@ -202,10 +202,10 @@ class Walk {
   }
 
   /** The value of a field, of a derived one too: `decode` checks those and keeps them to itself. */
-  #value(field: Exclude<Field, { kind: 'list' | 'each' }>): unknown {
+  #value(name: string, field: Exclude<Field, { kind: 'list' | 'each' }>): unknown {
     const { context, code } = this.#options
     const start = this.#reader.position
-    const { field: value } = decode<Shape>({ field }, this.#reader, context)
+    const { [name]: value } = decode<Shape>({ [name]: field }, this.#reader, context)
     switch (field.kind) {
       case 'fixed':
         return field.value

@@ -1,0 +1,115 @@
+/** Messages of any declaration, made from its shapes: what the property tests run over. */
+import fc from 'fast-check'
+import type { Context, Field, Shape } from '../../src/codec/codec'
+import { jwAddress } from '../../src/jw/operand'
+import { aCompatibleDevice } from '../../src/melsec/a-compatible-device'
+import { deviceAddress } from '../../src/melsec/device-codec'
+import { setReset } from '../../src/melsec/set-reset'
+
+type Bag = Record<string, unknown>
+type Generate = fc.GeneratorValue
+
+const number = fc.integer({ min: 0, max: 0x7fff })
+const device = (names: readonly string[]) => fc.record({ device: fc.constantFrom(...names), number })
+
+/** Values of the value codecs, which any form can say. */
+const VALUES: ReadonlyMap<object, fc.Arbitrary<unknown>> = new Map<object, fc.Arbitrary<unknown>>([
+  [deviceAddress, device(['D', 'M', 'X', 'Y', 'W', 'ZR', 'TN', 'SB'])],
+  [aCompatibleDevice, device(['D', 'M', 'X', 'R', 'TN'])],
+  [setReset, fc.boolean()],
+  [
+    jwAddress,
+    fc.oneof(
+      fc.record({ segment: fc.integer({ min: 0, max: 0x80 }), address: number }),
+      fc.record({ segment: fc.integer({ min: 0, max: 1 }), address: number, extended: fc.constant(true) }),
+    ),
+  ],
+])
+
+const ELEMENT = {
+  words: fc.integer({ min: 0, max: 0xffff }),
+  doubleWords: fc.nat(0xffffffff),
+  bits: fc.boolean(),
+  bytes: fc.integer({ min: 0, max: 0xff }),
+} satisfies Record<string, fc.Arbitrary<unknown>>
+const MOST = 20
+
+/** A message of `shape`; a response's with the request it answers. */
+export function messageOf(shape: Shape, generate: Generate, context?: Context): Bag {
+  const message: Bag = {}
+  for (const [name, field] of Object.entries(shape)) {
+    if (field.kind === 'fixed' || field.kind === 'count' || field.kind === 'echo') continue
+    message[name] = valueFor(name, field, shape, message, generate, context)
+  }
+  return message
+}
+
+type Visible = Exclude<Field, { kind: 'fixed' | 'count' | 'echo' }>
+
+function valueFor(
+  name: string,
+  field: Visible,
+  shape: Shape,
+  message: Bag,
+  generate: Generate,
+  context: Context | undefined,
+): unknown {
+  const size = () => sizeOf(name, 'count' in field ? field.count : 0, shape, message, generate, context)
+  switch (field.kind) {
+    case 'u8':
+    case 'u16':
+    case 'u32': {
+      const { min = 0, max = MOST, oneOf } = field
+      return generate(() =>
+        oneOf === undefined ? fc.integer({ min, max: Math.min(max, MOST) }) : fc.constantFrom(...oneOf),
+      )
+    }
+    case 'value': {
+      const values = VALUES.get(field.codec)
+      if (values === undefined) throw new Error(`no values for the codec ${field.codec.name}`)
+      return generate(() => values)
+    }
+    case 'bytes':
+      return Buffer.from(array(ELEMENT.bytes, size(), generate))
+    case 'words':
+    case 'doubleWords':
+    case 'bits':
+      return array<unknown>(ELEMENT[field.kind], size(), generate)
+    case 'text': {
+      const characters = field.charset === 'hexDigits' ? '0123456789ABCDEF' : 'Az09 -é'
+      return array(fc.constantFrom(...characters), size(), generate).join('')
+    }
+    case 'list':
+      return Array.from({ length: size() }, () => messageOf(field.item, generate, context))
+    case 'each': {
+      const elements = context?.message[field.of] as readonly Bag[]
+      return elements.map((element) => valueFor('', field.item, {}, element, generate, undefined))
+    }
+    default:
+      return field satisfies never
+  }
+}
+
+function array<T>(element: fc.Arbitrary<T>, length: number, generate: Generate): T[] {
+  return generate(() => fc.array(element, { minLength: length, maxLength: length }))
+}
+
+function sizeOf(
+  name: string,
+  count: number | string,
+  shape: Shape,
+  message: Bag,
+  generate: Generate,
+  context: Context | undefined,
+): number {
+  if (typeof count === 'number') return count
+  const derived = Object.values(shape).find((field) => field.kind === 'count' && field.of === name)
+  const asked = context?.shape[count]
+  // What the request says goes before a free length: an encoder holds a response against its request.
+  const found =
+    (count === name ? undefined : message[count]) ?? context?.message[asked?.kind === 'count' ? asked.of : count]
+  if (typeof found === 'number') return found
+  if (found !== undefined) return (found as ArrayLike<unknown>).length
+  if (derived?.kind !== 'count') throw new Error(`nothing tells the count of ${name}`)
+  return generate(() => fc.integer({ min: derived.min ?? 0, max: MOST }))
+}
