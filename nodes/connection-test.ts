@@ -17,7 +17,7 @@ import {
 import { endpoint, objectIn } from './admin'
 import type { Connection } from './connection'
 import { optionsOf, resolverOf, settingsOf } from './connection-settings'
-import { detailsOf, type FailureDetails } from './failure'
+import { detailsOf, type FailureCode, type FailureDetails } from './failure'
 import type { StoredSettings } from './migration'
 import type { Texts } from './texts'
 
@@ -26,6 +26,9 @@ const CONNECT = 8_000
 /** ms for each question. */
 const QUESTION = 3_000
 const ROUNDS = 10
+
+/** How a PLC turns away one connection more than it has entries for. */
+const TURNED_AWAY: readonly FailureCode[] = ['ENTRY_BUSY', 'CONNECT_FAILED', 'DISCONNECTED']
 
 export interface TestResult extends Partial<Identity> {
   readonly ok: true
@@ -73,11 +76,12 @@ async function outcome(
     }
   } catch (error) {
     const details = detailsOf(error, texts)
-    const held = connection?.current?.state.name === 'connected' ? [texts('error.entryHeld')] : []
-    const { causes = [] } = details
+    const { code, causes = [] } = details
+    const ours = connection?.current?.state.name === 'connected' && TURNED_AWAY.includes(code)
     // With its causes the message of a silence is long, and they are listed below it.
-    const message = causes.length === 0 ? details.message : texts('test.silent', { peer })
-    return { ok: false, ...details, message, causes: [...causes, ...held] }
+    const silent = code === 'SILENT' && causes.length > 0
+    const message = silent ? texts('test.silent', { peer }) : details.message
+    return { ok: false, ...details, message, causes: ours ? [texts('error.entryHeld'), ...causes] : causes }
   }
 }
 

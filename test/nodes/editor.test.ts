@@ -1,0 +1,300 @@
+/**
+ * The dialogs of the nodes in the real editor, in a headless browser. `MELSEC_JW_SCREENSHOTS` names a folder to keep
+ * pictures of them in.
+ */
+import { mkdir } from 'node:fs/promises'
+import { join } from 'node:path'
+import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
+import type { Page } from 'playwright-core'
+import { devices, type PlcSimulator, profileIds, typeNames } from '../../src/index'
+import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
+import { type NodeRed, startNodeRed } from '../support/node-red'
+import { readText } from '../support/syntax'
+import { connectionTo, controlNode, readNode, startPlc, writeNode } from './flow'
+
+const LANGUAGES = ['en-US', 'ja', 'zh-CN', 'zh-TW'] as const
+
+let red: NodeRed
+let plc: PlcSimulator
+let browser: HeadlessBrowser
+
+beforeAll(async () => {
+  plc = await startPlc()
+  ;[red, browser] = await Promise.all([startNodeRed(), launchBrowser()])
+  const row = { name: '', address: 'D112', type: 'REAL', value: '40.5', valueType: 'num' }
+  await red.deploy([
+    connectionTo(plc),
+    readNode({ level: 'D100:REAL', inlet: 'Y20' }, { x: 200, y: 100 }),
+    writeNode({ valuesType: 'rows', items: [row], x: 200, y: 200 }),
+    controlNode({ commandType: 'command', command: 'stop', x: 200, y: 300 }),
+  ])
+}, 90_000)
+
+afterAll(async () => {
+  await browser.close()
+  await red.stop()
+  await plc.close()
+})
+
+/** What the editor's own code offers to its page. */
+interface Editor {
+  readonly RED: {
+    readonly editor: { edit(node: unknown): void; editConfig(name: string, type: string, id: string): void }
+    readonly nodes: {
+      node(id: string): Record<string, unknown>
+      dirty(): boolean
+    }
+    readonly view: { importNodes(nodes: unknown, options: unknown): void }
+    _(key: string): string
+  }
+}
+
+async function open(locale: string): Promise<OpenedPage> {
+  return browser.openEditor(red.url, { locale, viewport: { width: 1400, height: 1000 } })
+}
+
+async function edit(page: Page, id: string): Promise<void> {
+  await page.evaluate((node) => {
+    const { RED } = globalThis as unknown as Editor
+    const found = RED.nodes.node(node)
+    if (node === 'plc') RED.editor.editConfig('', 'melsec-jw-connection', node)
+    else RED.editor.edit(found)
+  }, id)
+  await page.locator('.red-ui-tray-body .melsec-jw-form').last().waitFor()
+  // The tray slides in.
+  await page.waitForFunction(() => {
+    const tray = [...document.querySelectorAll('.red-ui-tray')].at(-1)
+    return tray !== undefined && tray.getBoundingClientRect().right <= window.innerWidth + 1
+  })
+}
+
+async function close(page: Page, button: 'ok' | 'cancel'): Promise<void> {
+  await page.locator(`#node-dialog-${button}:visible, #node-config-dialog-${button}:visible`).last().click()
+  await page.locator('.red-ui-tray').waitFor({ state: 'detached' })
+}
+
+function property(page: Page, id: string, name: string): Promise<unknown> {
+  return page.evaluate(
+    ([node, field]) => (globalThis as unknown as Editor).RED.nodes.node(node ?? '')[field ?? ''],
+    [id, name],
+  )
+}
+
+async function picture(page: Page, name: string): Promise<void> {
+  const folder = process.env.MELSEC_JW_SCREENSHOTS
+  if (folder === undefined) return
+  await mkdir(folder, { recursive: true })
+  await page.screenshot({ path: join(folder, `${name}.png`) })
+}
+
+describe('in English', () => {
+  let opened: OpenedPage
+  let page: Page
+
+  beforeAll(async () => {
+    opened = await open('en-US')
+    page = opened.page
+  }, 60_000)
+
+  afterAll(async () => {
+    expect(opened.problems).toEqual([])
+    await opened.close()
+  })
+
+  test('the palette has the nodes under PLC, with their labels', async () => {
+    const category = page.locator('#red-ui-palette-PLC, [id="red-ui-palette-container-PLC"]').first()
+    await category.scrollIntoViewIfNeeded()
+    const labels = await category.locator('.red-ui-palette-label').allTextContents()
+    expect(labels.map((label) => label.replaceAll(/\s+/g, ' ')).sort()).toEqual([
+      'plc control',
+      'plc read',
+      'plc write',
+    ])
+    await picture(page, 'palette')
+  })
+
+  test('a node without a name is called by its first item', async () => {
+    const labels = await page.locator('.red-ui-flow-node-label-text').allTextContents()
+    expect(labels).toEqual(expect.arrayContaining(['level +1', 'D112', 'remote STOP']))
+  })
+
+  test('the statuses of the nodes are in words', async () => {
+    await expect(page.locator('.red-ui-flow-node-status-label', { hasText: 'connected' }).count()).resolves.toBe(3)
+  })
+
+  test('the read dialog says what each row will read, while it is typed', async () => {
+    await edit(page, 'read')
+    const hints = page.locator('.melsec-jw-hint')
+    await hints.getByText('D100 – D101 · data register · REAL · 2 words · decimal numbers').waitFor()
+    await hints.getByText('Y20 · output · BOOL · 1 bit · hexadecimal numbers').waitFor()
+    const address = page.getByRole('textbox', { name: 'Device' }).first()
+    await address.fill('D100[3]')
+    await page.getByRole('combobox', { name: 'Data type' }).first().selectOption('STRING')
+    await page.getByRole('textbox', { name: 'Length in characters' }).first().fill('10')
+    await hints.getByText('D100 – D114 · data register · STRING(10) × 3 · 15 words').waitFor()
+    await address.fill('D10O')
+    await page.locator('.melsec-jw-hint.melsec-jw-bad').waitFor()
+    expect(await address.getAttribute('aria-invalid')).toBe('true')
+    await picture(page, 'read')
+    await address.fill('D102')
+    await hints.getByText('D102 – D106').waitFor()
+    await page.getByRole('button', { name: 'add' }).click()
+    await page.getByRole('textbox', { name: 'Device' }).last().fill('M10')
+    await hints.getByText('M10 · internal relay').waitFor()
+    await close(page, 'ok')
+    expect(await property(page, 'read', 'items')).toEqual([
+      { name: 'level', address: 'D102', type: 'STRING(10)' },
+      { name: 'inlet', address: 'Y20', type: '' },
+      { name: '', address: 'M10', type: '' },
+    ])
+  })
+
+  test('the read dialog takes addresses from the message, and cancelling changes nothing', async () => {
+    await edit(page, 'read')
+    const before = await property(page, 'read', 'addressesType')
+    await page
+      .locator('#node-input-addresses ~ .red-ui-typedInput-container, .red-ui-typedInput-container')
+      .first()
+      .locator('button')
+      .first()
+      .click()
+    await page.locator('.red-ui-typedInput-options:visible').getByText('msg.', { exact: true }).click()
+    await page.getByText('A device such as D100:REAL').waitFor()
+    expect(await page.locator('#melsec-jw-items').isVisible()).toBe(false)
+    await picture(page, 'read from message')
+    await close(page, 'cancel')
+    expect(await property(page, 'read', 'addressesType')).toBe(before)
+  })
+
+  test('the write dialog keeps the values of its rows and says when writing is off', async () => {
+    await edit(page, 'write')
+    await page.getByText('This connection does not allow writing.').waitFor()
+    await page.locator('.melsec-jw-hint').getByText('D112 – D113 · data register · REAL').waitFor()
+    await picture(page, 'write')
+    await close(page, 'ok')
+    expect(await property(page, 'write', 'items')).toEqual([
+      { name: '', address: 'D112', type: 'REAL', value: '40.5', valueType: 'num' },
+    ])
+  })
+
+  test('the control dialog shows what a command does, and what it needs', async () => {
+    await edit(page, 'control')
+    await page.getByText('The program stops, and outputs go off as the parameters say.').waitFor()
+    await page.getByText('This connection does not allow remote control.').waitFor()
+    expect(await page.locator('#node-input-clear').isVisible()).toBe(false)
+    await picture(page, 'control')
+    await close(page, 'ok')
+    expect([await property(page, 'control', 'command'), await property(page, 'control', 'commandType')]).toEqual([
+      'stop',
+      'command',
+    ])
+  })
+
+  test('the test button shows the CPU and the round trip, and offers its series', async () => {
+    await edit(page, 'plc')
+    await page.locator('#node-config-input-profile').selectOption('generic')
+    await page.getByRole('button', { name: 'Test connection' }).click()
+    const result = page.getByRole('status')
+    await result.getByText('The PLC answers').waitFor()
+    expect(await result.textContent()).toMatch(/CPU: R08CPU · .+Round trip: \d+\.\d+ ms/)
+    await picture(page, 'connection')
+    await result.getByRole('button', { name: 'Use MELSEC iQ-R' }).click()
+    expect(await page.locator('#node-config-input-profile').inputValue()).toBe('iq-r')
+    await close(page, 'ok')
+  })
+
+  test('the test button lists ranked causes of a failure', async () => {
+    const before = await property(page, 'plc', 'code')
+    await edit(page, 'plc')
+    await page.locator('#node-config-input-code').selectOption('ascii')
+    await page.getByRole('button', { name: 'Test connection' }).click()
+    const result = page.getByRole('status')
+    await result.getByText('Possible causes, most likely first:').waitFor()
+    expect(await result.locator('li').first().textContent()).toMatch(/binary/)
+    await picture(page, 'connection silent')
+    for (const tab of ['Communication', 'Values']) {
+      await page.locator('.red-ui-tray .red-ui-tabs').getByText(tab, { exact: true }).click()
+      await picture(page, `connection ${tab.toLowerCase()}`)
+    }
+    await close(page, 'cancel')
+    expect(await property(page, 'plc', 'code')).toBe(before)
+  })
+
+  test('the lists of the dialogs are those of the library', async () => {
+    await edit(page, 'plc')
+    const values = (selector: string) =>
+      page
+        .locator(`${selector} option`)
+        .evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value))
+    expect(await values('#node-config-input-profile')).toEqual(['', ...profileIds])
+    await close(page, 'cancel')
+    await edit(page, 'read')
+    expect(await values('#melsec-jw-items li:first-child .melsec-jw-type')).toEqual(['', ...typeNames])
+    await close(page, 'cancel')
+  })
+
+  test('every dialog has its texts, and fits', () => lookThrough(page, 'en-US'), 60_000)
+
+  test('the help of each node is shown', async () => {
+    for (const [type, told] of [
+      ['read', 'an item that fails makes the message fail'],
+      ['write', 'A write is never repeated'],
+      ['control', 'Remote control of the CPU'],
+      ['connection', 'How to reach a Mitsubishi MELSEC PLC'],
+    ]) {
+      const help = await page.evaluate((name) => $(`script[data-help-name="melsec-jw-${name}"]`).text(), type)
+      expect(help).toContain(told)
+    }
+  })
+})
+
+/** jQuery, which the editor has. */
+declare const $: (selector: string) => { text(): string }
+
+/** Every dialog, held against missing texts and texts that are too long for it. */
+async function lookThrough(page: Page, language: string): Promise<void> {
+  for (const id of ['read', 'write', 'control', 'plc']) {
+    await edit(page, id)
+    const form = page.locator('.red-ui-tray-body .melsec-jw-form').last()
+    const text = (await form.innerText()) + (await form.locator('option').allTextContents()).join('\n')
+    // A key without a text is shown as itself.
+    expect(text.match(/\b(label|option|note|button|command|status|explain|device|test|tab|unit)\.[\w-]+/g)).toBeNull()
+    expect(text).not.toContain('undefined')
+    const wide = await form.evaluate((element) => element.scrollWidth - element.clientWidth)
+    expect({ id, wide }).toEqual({ id, wide: 0 })
+    await picture(page, `${language} ${id}`)
+    await close(page, 'cancel')
+  }
+}
+
+test.each(LANGUAGES.slice(1))(
+  'in %s every dialog has its texts, and fits',
+  async (language) => {
+    const opened = await open(language)
+    await lookThrough(opened.page, language)
+    expect(opened.problems).toEqual([])
+    await opened.close()
+  },
+  60_000,
+)
+
+describe.each(LANGUAGES)('in %s', (language) => {
+  test('the titles of devices are there; the English ones are those of the library', () => {
+    const catalogue = JSON.parse(readText(`nodes/locales/${language}/melsec-jw-connection.json`)) as {
+      language: string
+      device: Record<string, string>
+    }
+    expect(catalogue.language).toBe(language)
+    const titles = Object.fromEntries(devices.map(({ name, title }) => [name, title]))
+    expect(Object.keys(catalogue.device).sort()).toEqual(Object.keys(titles).sort())
+    expect(language === 'en-US' ? catalogue.device : titles).toEqual(titles)
+  })
+
+  test('statuses are short', () => {
+    const catalogue = JSON.parse(readText(`nodes/locales/${language}/melsec-jw-connection.json`)) as {
+      status: Record<string, string>
+    }
+    const long = Object.values(catalogue.status).filter((text) => text.replaceAll(/__\w+__/g, '1234').length >= 20)
+    expect(long).toEqual([])
+  })
+})
