@@ -1,0 +1,173 @@
+/** Messages of any declaration, made from its shapes: what the property tests run over. */
+import fc from 'fast-check'
+import type { Context, Field, Shape } from '../../src/codec/codec'
+import { jwAddress } from '../../src/jw/operand'
+import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible-device'
+import { devices } from '../../src/melsec/device'
+import { deviceAddress, FORM_EXTENDED, FORM_XY_OCTAL, formProblem } from '../../src/melsec/device-codec'
+import { setReset } from '../../src/melsec/set-reset'
+import { anyAddress } from '../melsec/device-bytes'
+
+export type Bag = Record<string, unknown>
+
+/** How the message is going to be written: not every value can be said in every code and form. */
+export interface Wanted {
+  readonly ascii: boolean
+  readonly form: number
+  /** The request, when a response is wanted. */
+  readonly context?: Context
+}
+
+/** Numbers of all sizes, the edges of fields and of the short forms among them. */
+const numbers = fc.oneof(
+  fc.nat(70_000),
+  fc.nat(0xffffffff),
+  fc.constantFrom(0, 1, 255, 256, 0o777777, 999_999, 0xffffff, 0x1000000, 99_999_999, 0xfffffffe, 0xffffffff),
+)
+
+const plainDevices = devices.filter((info) => info.extensionOnly !== true).map((info) => info.name)
+const plainAddress = fc.record({ device: fc.constantFrom(...plainDevices), number: numbers })
+
+type Values = (wanted: Wanted) => fc.Arbitrary<unknown>
+
+const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
+  [
+    deviceAddress,
+    ({ ascii, form }) =>
+      ((form & FORM_EXTENDED) === 0 ? plainAddress : fc.oneof(plainAddress, anyAddress)).filter(
+        (address) => formProblem(address, ascii, form) === undefined,
+      ),
+  ],
+  [
+    aCompatibleDevice,
+    ({ ascii, form }) =>
+      fc
+        .record({ device: fc.constantFrom(...aCompatibleDevices.map(({ name }) => name)), number: numbers })
+        .filter(({ number }) => !ascii || (form & FORM_XY_OCTAL) === 0 || number < 8 ** 8),
+  ],
+  [setReset, () => fc.boolean()],
+  [
+    jwAddress,
+    () =>
+      fc.oneof(
+        fc.record({ segment: fc.nat(0x80), address: fc.nat(0xffff) }),
+        fc.record({ segment: fc.constant(0), address: fc.nat(0xffff), extended: fc.constant(true) }),
+        fc.record({ segment: fc.constant(1), address: fc.nat(0x7fffff), extended: fc.constant(true) }),
+      ),
+  ],
+])
+
+const ELEMENTS = {
+  words: fc.nat(0xffff),
+  doubleWords: fc.nat(0xffffffff),
+  bits: fc.boolean(),
+  bytes: fc.nat(0xff),
+} as const
+const LAST = { u8: 0xff, u16: 0xffff, u32: 0xffffffff } as const
+
+/** Elements of a bulk field or list: mostly few, now and then as many as the field takes or a request may carry. */
+function sizes(min: number, max: number): fc.Arbitrary<number> {
+  const most = Math.max(min, Math.min(max, 960))
+  const few = fc.integer({ min, max: Math.min(most, min + 5) })
+  return fc.oneof({ weight: 39, arbitrary: few }, { weight: 1, arbitrary: fc.constant(most) })
+}
+
+/** As many elements as are made one by one; longer rows repeat them, because making thousands takes seconds. */
+const MADE = 8
+
+/** Any message of `shape` that can be written as wanted. */
+export function arbitrary(shape: Shape, wanted: Wanted): fc.Arbitrary<Bag> {
+  const values = valuesOf(shape, wanted)
+  return fc.gen().map((generate) => new Maker(generate, values, wanted.context).message(shape))
+}
+
+/** The arbitraries of the shape's value codecs, made once. */
+function valuesOf(shape: Shape, wanted: Wanted): Map<object, fc.Arbitrary<unknown>> {
+  const found = new Map<object, fc.Arbitrary<unknown>>()
+  for (const field of Object.values(shape)) {
+    if (field.kind === 'list') for (const [codec, values] of valuesOf(field.item, wanted)) found.set(codec, values)
+    if (field.kind !== 'value') continue
+    const values = VALUES.get(field.codec)
+    if (values === undefined) throw new Error(`No values are known for the codec ${field.codec.name}: add them here.`)
+    found.set(field.codec, values(wanted))
+  }
+  return found
+}
+
+type Visible = Exclude<Field, { kind: 'fixed' | 'count' | 'echo' }>
+
+class Maker {
+  constructor(
+    private readonly generate: fc.GeneratorValue,
+    private readonly values: ReadonlyMap<object, fc.Arbitrary<unknown>>,
+    private readonly context: Context | undefined,
+  ) {}
+
+  message(shape: Shape): Bag {
+    const message: Bag = {}
+    for (const [name, field] of Object.entries(shape)) {
+      if (field.kind === 'fixed' || field.kind === 'count' || field.kind === 'echo') continue
+      message[name] = this.value(name, field, shape, message)
+    }
+    return message
+  }
+
+  private value(name: string, field: Visible, shape: Shape, message: Bag): unknown {
+    switch (field.kind) {
+      case 'u8':
+      case 'u16':
+      case 'u32':
+        return this.integer(name, field)
+      case 'value':
+        return this.generate(() => this.values.get(field.codec) as fc.Arbitrary<unknown>)
+      case 'words':
+      case 'doubleWords':
+      case 'bits':
+        return this.elements<unknown>(ELEMENTS[field.kind], this.size(name, field.count, shape, message))
+      case 'bytes':
+        return Buffer.from(this.elements(ELEMENTS.bytes, this.size(name, field.count, shape, message)))
+      case 'text': {
+        const characters = field.charset === 'hexDigits' ? '0123456789ABCDEF' : 'Az09 -\u00e9\u00ff\u0000'
+        return this.elements(fc.constantFrom(...characters), this.size(name, field.count, shape, message)).join('')
+      }
+      case 'list':
+        return repeated(this.size(name, field.count, shape, message), () => this.message(field.item))
+      case 'each': {
+        const asked = this.context?.message[field.of] as readonly Bag[]
+        return asked.map((element) => this.value('', field.item, {}, element))
+      }
+      default:
+        return field satisfies never
+    }
+  }
+
+  private integer(name: string, field: Extract<Field, { kind: 'u8' | 'u16' | 'u32' }>): number {
+    const { min = 0, max = LAST[field.kind], oneOf } = field
+    if (oneOf !== undefined) return this.generate(() => fc.constantFrom(...oneOf))
+    // A number of points is also how much a response holds: it stays within what one request may carry.
+    if (name === 'points' || name === 'length') return this.generate(() => sizes(min, max))
+    return this.generate(() => fc.oneof(fc.integer({ min, max }), fc.constantFrom(min, max)))
+  }
+
+  private elements<T>(element: fc.Arbitrary<T>, length: number): T[] {
+    return repeated(length, () => this.generate(() => element))
+  }
+
+  private size(name: string, count: number | string, shape: Shape, message: Bag): number {
+    if (typeof count === 'number') return count
+    const derived = Object.values(shape).find((field) => field.kind === 'count' && field.of === name)
+    if (derived?.kind === 'count') {
+      const { min = 0, max = 2 ** (8 * derived.width) - 1 } = derived
+      return this.generate(() => sizes(min, max))
+    }
+    const asked = this.context?.shape[count]
+    const here = count === name ? undefined : message[count]
+    const found = here ?? this.context?.message[asked?.kind === 'count' ? asked.of : count]
+    return typeof found === 'number' ? found : (found as ArrayLike<unknown>).length
+  }
+}
+
+function repeated<T>(length: number, make: () => T): T[] {
+  const made = Array.from({ length: Math.min(length, MADE) }, make)
+  return Array.from({ length }, (_, i) => made[i % MADE] as T)
+}

@@ -1,0 +1,48 @@
+/** Every declaration of this package, in every code and form it is sent in. */
+import type { DataCode, Declaration, Shape } from '../../src/codec/codec'
+import { jwCommands } from '../../src/jw/commands'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible'
+import { commands } from '../../src/melsec/commands/commands'
+import { FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL, FORM_ZR_HEX } from '../../src/melsec/device-codec'
+
+export interface DeclarationCase {
+  /** e.g. `melsec readWords ascii` */
+  readonly title: string
+  readonly declaration: Declaration
+  /** The request that its response refers to: its own or, for Execute Monitor, the registration's. */
+  readonly asked: Shape
+  readonly code: DataCode
+  readonly forms: readonly number[]
+}
+
+interface Family {
+  readonly list: Readonly<Record<string, Declaration>>
+  readonly forms: Readonly<Partial<Record<DataCode, readonly number[]>>>
+}
+
+const deviceForms = [0, FORM_LONG, FORM_EXTENDED, FORM_EXTENDED | FORM_LONG]
+const digits = [0, FORM_XY_OCTAL, FORM_ZR_HEX, FORM_XY_OCTAL | FORM_ZR_HEX]
+
+const families: Readonly<Record<string, Family>> = {
+  melsec: {
+    list: commands,
+    forms: { binary: deviceForms, ascii: deviceForms.flatMap((form) => digits.map((digit) => form | digit)) },
+  },
+  '1E': { list: aCompatibleCommands, forms: { binary: [0], ascii: [0, FORM_XY_OCTAL] } },
+  jw: { list: jwCommands, forms: { binary: [0] } },
+}
+
+export const declarationCases: readonly DeclarationCase[] = Object.entries(families).flatMap(
+  ([family, { list, forms }]) =>
+    Object.entries(list).flatMap(([name, declaration]) => {
+      const asked = declaration.context === undefined ? declaration : list[declaration.context]
+      if (asked === undefined) throw new Error(`${name} refers to a command that is not declared`)
+      return (Object.keys(forms) as DataCode[]).map((code) => ({
+        title: `${family} ${name} ${code}`,
+        declaration,
+        asked: asked.request,
+        code,
+        forms: forms[code] ?? [],
+      }))
+    }),
+)
