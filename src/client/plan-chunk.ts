@@ -1,4 +1,5 @@
 // Pieces that lie near one another become chunks (one Read each) and runs (what scattered reading asks for).
+import type { DeviceName } from '../melsec/device'
 import type { Area } from './plan-area'
 import type { Areas, Piece } from './plan-layout'
 
@@ -16,14 +17,15 @@ export type Run = Joined<Piece>
 /** Runs near enough to one another for one Read, which reads the cells between them in vain. */
 export type Chunk = Joined<Run>
 
+/** Reading them asks a module, which takes time there and may have an effect: only what is wanted is read. */
+const IN_MODULES: readonly DeviceName[] = ['G', 'HG', 'DX', 'DY']
+
 /**
  * Cells that may be read in vain between two runs.
  * @param gap words
  */
-function gapIn({ template, ways, kind, bitsPerCell }: Area, gap: number): number {
-  if (ways.direct === undefined) return 0
-  // Reading a word of a buffer memory can have an effect in the module: only what is asked for is read there.
-  if (template.extension !== undefined && template.extension.kind !== 'link') return 0
+function gapIn({ info, ways, kind, bitsPerCell }: Area, gap: number): number {
+  if (ways.direct === undefined || IN_MODULES.includes(info.name)) return 0
   // In bit units a byte of the answer holds two bits, so four bits cost as much as a word.
   return kind === 'bit' ? 4 * gap : Math.floor((16 * gap) / bitsPerCell)
 }

@@ -4,6 +4,7 @@ import type { AddressOptions } from '../melsec/address'
 import type { CommandName } from '../melsec/commands/commands'
 import { commands } from '../melsec/commands/commands'
 import { explainEndCode } from '../melsec/end-code'
+import { limitsOf } from '../melsec/limit'
 import type { MelsecProtocol } from '../melsec/protocol'
 import type { ParsedItem, RefusedItem } from './item'
 import type { Run } from './plan-chunk'
@@ -35,10 +36,8 @@ export interface Leaf<Head> {
   readonly outcome: 'read' | 'lost' | EndCodeError
 }
 
-/**
- * Whether the end code may be about a single item of the request. A code nobody has a text for may be.
- */
-export function isAboutItems({ endCode }: EndCodeError): boolean {
+/** Whether the end code may be about a single item of the request. A code nobody has a text for may be. */
+function isAboutItems({ endCode }: EndCodeError): boolean {
   const explained = explainEndCode(endCode)
   return explained === undefined || !explained.exact || explained.aboutDevice
 }
@@ -126,6 +125,13 @@ export class ReadShape<Head> {
     return { prepared, pieces, places, stage, without }
   }
 
+  /** Whether a smaller request may be answered: the end code is about a device, or about the size of the request. */
+  mayHelp({ prepared: { command, form } }: ReadStep<Head>, refusal: EndCodeError): boolean {
+    const { profile, code } = this.#protocol
+    const limits = limitsOf(profile, command, form, code)
+    return isAboutItems(refusal) || limits.some(({ endCode }) => endCode === refusal.endCode)
+  }
+
   /**
    * Smaller requests for what a refused one asked for: without the command when the refusal is about that, else its
    * halves without gaps, else bits in bit units instead of their words. Empty when there is nothing smaller.
@@ -133,7 +139,7 @@ export class ReadShape<Head> {
   divided(step: ReadStep<Head>, refusal: EndCodeError): readonly ReadStep<Head>[] {
     const { pieces, without, prepared } = step
     const { command } = prepared
-    if ((command === 'readRandom' || command === 'readBlock') && !isAboutItems(refusal)) {
+    if ((command === 'readRandom' || command === 'readBlock') && !this.mayHelp(step, refusal)) {
       const parts = this.#built(pieces, { gap: this.#gap, without: new Set([...without, command]) }, 'settled')
       if (parts.every((part) => part.prepared.command !== command)) return parts
     }
@@ -191,7 +197,7 @@ export class ReadShape<Head> {
     if (step.stage !== 'planned' || read.length < 2) return read
     const pieces = read.flatMap((leaf) => leaf.pieces)
     const without = new Set(read.flatMap((leaf) => [...leaf.without]))
-    const gap = isAboutItems(refusal) ? 0 : this.#gap
+    const gap = this.mayHelp(step, refusal) ? 0 : this.#gap
     return this.#built(pieces, { gap, without }, 'merged')
   }
 

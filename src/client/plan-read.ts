@@ -9,7 +9,7 @@ import { EndCodeError, PlcError, type RequestError } from '../errors'
 import type { MelsecProtocol } from '../melsec/protocol'
 import type { PlcValue, Words } from '../value/value'
 import type { ParsedItem, RefusedItem } from './item'
-import { isAboutItems, type Leaf, ReadShape, type ReadShapeOptions, type ReadStep } from './plan-read-shape'
+import { type Leaf, ReadShape, type ReadShapeOptions, type ReadStep } from './plan-read-shape'
 import { describePrepared, type PlanDescription, planText, type Send } from './plan-request'
 import { type Place, valueAt } from './plan-value'
 
@@ -97,9 +97,9 @@ export class ReadPlan<Head> {
     }
     const tried: Leaf<Head>[] = []
     for (const part of parts) tried.push({ step: part, outcome: await run.attempt(part, division) })
-    // The same code for every part, and it is not about an item: the PLC is not ready, and asking more does not help.
+    // The same code for every part, and it is about none of them: the PLC is not ready, and asking more does not help.
     const same = tried.every(({ outcome }) => outcome instanceof EndCodeError && outcome.endCode === refusal.endCode)
-    const hopeless = same && !isAboutItems(refusal)
+    const hopeless = same && !this.#shape.mayHelp(step, refusal)
     const leaves: Leaf<Head>[] = []
     for (const leaf of tried) {
       if (!(leaf.outcome instanceof EndCodeError)) leaves.push(leaf)

@@ -118,7 +118,8 @@ function wordsToWrite(item: ParsedItem, value: WriteValue): number[] {
 
 function bitsToWrite(item: ParsedItem, value: WriteValue): boolean[] {
   if (item.digits !== undefined) return digitsToWrite(item, item.digits, value)
-  return valuesOf(item, value).map((bit) => {
+  // Not map(): it would pass over the holes of an array.
+  return Array.from(valuesOf(item, value), (bit) => {
     if (typeof bit === 'boolean') return bit
     throw badValue('BOOL', bit, 'true or false')
   })

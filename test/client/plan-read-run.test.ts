@@ -281,6 +281,22 @@ describe('a refused command', () => {
     expect(codes(await run())).toEqual(['ok', NOT_SUPPORTED])
   })
 
+  test('because it asks for too much is asked for in smaller ones', async () => {
+    const { plc, run, requests } = bench(range(90, (i) => `D${100 * i}`))
+    // A CPU that takes fewer points than the manual says.
+    const most = 30
+    const send: Send<Head3e> = async (exchange) => {
+      const { words } = exchange.message as { words?: readonly unknown[] }
+      plc.refuse = () => ((words?.length ?? 0) > most ? 0xc054 : 0)
+      return plc.send(exchange)
+    }
+    expect(new Set(codes(await run(send)))).toEqual(new Set(['ok']))
+    await run(send)
+    requests()
+    expect(new Set(codes(await run(send)))).toEqual(new Set(['ok']))
+    expect(requests()).toBe(4)
+  })
+
   test('because the PLC is not ready does not lead to a storm of requests', async () => {
     const { plc, run, requests } = bench(range(200, (i) => `D${i}`))
     plc.refuse = () => LOCKED

@@ -171,8 +171,9 @@ describe('extended addresses', () => {
     ])
   })
 
-  test('of buffer memories are never read in vain', () => {
+  test('of buffer memories and direct inputs are never read in vain', () => {
     expect(texts(['U3\\G100', 'U3\\G102'])).toEqual(['Read Random: 2 words, 0 double words'])
+    expect(texts(['DX0', 'DX20'])).toEqual(['Read Random: 2 words, 0 double words'])
     expect(texts(['J1\\W100', 'J1\\W102'])).toEqual(['Read (word units): J1\\W100 to J1\\W102, 3 points'])
   })
 

@@ -175,6 +175,8 @@ describe('what is wrong is found before anything is sent', () => {
     ['D0[2]', [1], 'BAD_VALUE', '2 values of INT, and 1'],
     ['M0', 1, 'BAD_VALUE', 'true or false'],
     ['M0[2]', [true, 0], 'BAD_VALUE', 'true or false'],
+    ['M0[2]', new Array(2), 'BAD_VALUE', 'true or false'],
+    ['D0[2]', new Array(2), 'BAD_VALUE', 'element 0'],
     ['K2M0', 256, 'BAD_VALUE', '8 bits'],
     ['K2M0', -1, 'BAD_VALUE', '8 bits'],
     ['D0:REAL', Number.NaN, 'BAD_VALUE', 'finite'],
