@@ -3,7 +3,7 @@ import { RequestError } from '../../src/errors'
 import { type Fault, faultKinds } from '../../src/simulator/simulator'
 import { manualClock } from '../../src/transport/clock'
 import { settle } from '../transport/recorder'
-import { done, type Protocol, readD, refused, withClient, word, writeD } from './wire'
+import { done, type Protocol, readD, refused, until, withClient, word, writeD } from './wire'
 
 const PROTOCOLS: readonly Protocol[] = ['tcp', 'udp']
 
@@ -87,21 +87,24 @@ describe.each(PROTOCOLS)('over %s', (protocol) => {
     withClient(protocol, {}, async (plc, { transport, bytes, chunks }) => {
       plc.faults.add({ kind: 'merge', times: 2 })
       transport.send(readD(0, 1))
-      while (plc.statistics.answers < 1) await settle()
+      await until(() => plc.statistics.answers >= 1)
       expect(chunks).toEqual([])
       transport.send(readD(0, 2))
       expect(await bytes(34)).toEqual(Buffer.concat([word(0, 1), word(0, 2)]))
       expect(sizes(chunks)).toEqual([34])
     }))
 
-  test.each(Array.from({ length: 12 }, (_, i) => i + 1))('split after byte %i', (at) =>
-    withClient(protocol, {}, async (plc, { transport, bytes, chunks }) => {
+  test.each(Array.from({ length: 12 }, (_, i) => i + 1))('split after byte %i', (at) => {
+    const clock = manualClock()
+    return withClient(protocol, { clock }, async (plc, { transport, bytes, chunks }) => {
       plc.faults.add({ kind: 'split', at, pause: 3 })
       transport.send(readD(0))
+      await bytes(at)
+      clock.advance(3)
       expect(await bytes(13)).toEqual(word(0))
       expect(sizes(chunks)).toEqual([at, 13 - at])
-    }),
-  )
+    })
+  })
 
   test('dribble: byte by byte', () => {
     const clock = manualClock()
@@ -178,15 +181,20 @@ describe.each(PROTOCOLS)('over %s', (protocol) => {
       expect((await bytes(26)).subarray(15)).toEqual(Buffer.from('d00000ffff030002003140', 'hex'))
     }))
 
-  test('coalesce: of two requests that come together only the last is carried out and answered', () =>
-    withClient(protocol, {}, async (plc, { transport, bytes, chunks }) => {
-      plc.faults.add({ kind: 'coalesce' })
+  test('coalesce: of two requests that come together only the last is carried out and answered', () => {
+    const clock = manualClock()
+    return withClient(protocol, { clock }, async (plc, { transport, bytes, chunks }) => {
+      plc.faults.add({ kind: 'coalesce', window: 10 })
       transport.send(writeD(0, 1, 1))
       transport.send(readD(0, 2))
+      await until(() => plc.statistics.requests >= 2)
+      clock.advance(10)
       expect(await bytes(17)).toEqual(word(0, 2))
+      clock.advance(1000)
       await settle()
       expect([chunks.length, plc.statistics.discarded]).toEqual([1, 1])
-    }))
+    })
+  })
 
   test('coalesce: a request alone is answered', () =>
     withClient(protocol, {}, async (plc, { transport, bytes }) => {
@@ -204,10 +212,10 @@ describe.each(PROTOCOLS)('over %s', (protocol) => {
       plc.faults.add({ kind: 'coalesce' })
       plc.faults.add({ kind: 'delay', ms: 100, times: 1 })
       transport.send(readD(0, 1))
-      while (plc.statistics.requests < 1) await settle()
+      await until(() => plc.statistics.requests >= 1)
       clock.advance(50)
       transport.send(readD(0, 2))
-      while (plc.statistics.requests < 2) await settle()
+      await until(() => plc.statistics.requests >= 2)
       clock.advance(200)
       expect(await bytes(17)).toEqual(word(0, 2))
     })
@@ -218,15 +226,17 @@ describe('TCP only', () => {
   test.each([
     ['reset', 'DISCONNECTED'],
     ['close', undefined],
-  ] as const)('disconnect within the answer by %s', (how, code) =>
-    withClient('tcp', {}, async (plc, { transport, bytes, closed, chunks }) => {
+  ] as const)('disconnect within the answer by %s', (how, code) => {
+    const clock = manualClock()
+    return withClient('tcp', { clock }, async (plc, { transport, bytes, closed, chunks }) => {
       plc.faults.add({ kind: 'disconnect', at: 9, how })
       transport.send(writeD(0, 7))
       await bytes(9)
+      clock.advance(100)
       expect((await closed)?.code).toBe(code)
       expect([Buffer.concat(chunks), plc.read('D0')]).toEqual([done().subarray(0, 9), 7])
-    }),
-  )
+    })
+  })
 
   test('disconnect without a byte of the answer', () =>
     withClient('tcp', {}, async (plc, { transport, closed, chunks }) => {
@@ -262,7 +272,7 @@ describe('UDP only', () => {
       plc.write('D1', 1)
       plc.faults.add({ kind: 'late', times: 1 })
       first.transport.send(readD(1))
-      while (plc.statistics.requests < 1) await settle()
+      await until(() => plc.statistics.requests >= 1)
       const second = await client('udp')
       second.transport.send(readD(2))
       expect([await first.bytes(13), await second.bytes(13)]).toEqual([word(1), word(0)])
@@ -270,16 +280,22 @@ describe('UDP only', () => {
 })
 
 describe('switches', () => {
-  test('several work together: a delayed, duplicated answer in two pieces', () =>
-    withClient('tcp', {}, async (plc, { transport, bytes, chunks }) => {
-      plc.faults.add({ kind: 'delay', ms: 2 })
+  test('several work together: a delayed, duplicated answer in two pieces', () => {
+    const clock = manualClock()
+    return withClient('tcp', { clock }, async (plc, { transport, bytes, chunks }) => {
+      plc.faults.add({ kind: 'delay', ms: 20 })
       plc.faults.add({ kind: 'duplicate' })
-      plc.faults.add({ kind: 'split', at: 4 })
+      plc.faults.add({ kind: 'split', at: 4, pause: 10 })
       plc.faults.add({ kind: 'wrongSerial' })
       transport.send(readD(0, 1))
+      await until(() => plc.statistics.answers >= 1)
+      clock.advance(20)
+      expect(await bytes(4)).toEqual(word(0, 2).subarray(0, 4))
+      clock.advance(20)
       expect(await bytes(34)).toEqual(Buffer.concat([word(0, 2), word(0, 2)]))
       expect(chunks[0]).toHaveLength(4)
-    }))
+    })
+  })
 
   test('strike only the commands and requests they are for', () =>
     withClient('tcp', {}, async (plc, { transport, bytes }) => {

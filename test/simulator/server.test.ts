@@ -6,7 +6,7 @@ import { createPlcSimulator, type RequestEvent, type WriteEvent } from '../../sr
 import { manualClock } from '../../src/transport/clock'
 import { openHandles, record, settle } from '../transport/recorder'
 import { join } from './support'
-import { bench, done, open, type Protocol, readD, refused, withClient, word, writeD } from './wire'
+import { bench, done, open, type Protocol, readD, refused, until, withClient, word, writeD } from './wire'
 
 const PROTOCOLS: readonly Protocol[] = ['tcp', 'udp']
 
@@ -29,7 +29,7 @@ describe.each(PROTOCOLS)('over %s', (protocol) => {
       const right = code === 'binary' ? readD(0) : Buffer.from('500000FF03FF000018000004010000D*0000000001')
       transport.send(wrong)
       // Only bytes that came in another chunk than the wrong ones can be told from them.
-      while (plc.statistics.unreadable === 0) await settle()
+      await until(() => plc.statistics.unreadable > 0)
       expect(calls).toEqual(['opened'])
       transport.send(right)
       const answer = code === 'binary' ? word(0) : Buffer.from('D00000FF03FF00000800000000')
@@ -41,7 +41,7 @@ describe.each(PROTOCOLS)('over %s', (protocol) => {
   test('a 4E request to a 3E PLC is answered by silence', () =>
     withClient(protocol, { profile: 'iq-f' }, async (plc, { transport, chunks }) => {
       transport.send(readD(0, 1))
-      while (plc.statistics.unreadable === 0) await settle()
+      await until(() => plc.statistics.unreadable > 0)
       expect(chunks).toEqual([])
     }))
 
@@ -147,11 +147,11 @@ describe('UDP', () => {
       plc.write('D2', 2)
       transport.send(readD(1))
       transport.send(readD(2))
-      while (plc.statistics.discarded === 0) await settle()
+      await until(() => plc.statistics.discarded > 0)
       clock.advance(10)
       expect(await bytes(13)).toEqual(word(1))
       transport.send(readD(2))
-      while (plc.statistics.requests < 3) await settle()
+      await until(() => plc.statistics.requests >= 3)
       clock.advance(10)
       expect((await bytes(26)).subarray(13)).toEqual(word(2))
       expect(chunks).toHaveLength(2)
@@ -267,7 +267,7 @@ describe('listening and closing', () => {
     const clients = [record(open(plc, 'tcp')), record(open(plc, 'udp'))]
     await Promise.all(clients.map(({ opened }) => opened))
     for (const { transport } of clients) transport.send(readD(0))
-    while (plc.statistics.requests < 2) await settle()
+    await until(() => plc.statistics.requests >= 2)
     plc.faults.add({ kind: 'delay', ms: 60_000 })
     plc.restart()
     const closing = plc.close()

@@ -2,7 +2,7 @@
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
 import { tcpTransport } from '../../src/transport/tcp'
 import { udpTransport } from '../../src/transport/udp'
-import { type Recorder, record } from '../transport/recorder'
+import { type Recorder, record, settle } from '../transport/recorder'
 
 export type Protocol = 'tcp' | 'udp'
 
@@ -74,6 +74,16 @@ export function open(plc: PlcSimulator, protocol: Protocol) {
   const endpoint = plc[protocol]
   if (endpoint === undefined) throw new Error(`does not listen on ${protocol}`)
   return protocol === 'tcp' ? tcpTransport(endpoint)() : udpTransport(endpoint)()
+}
+
+const MOST_TURNS = 20_000
+
+/** Lets the event loop turn until it is so. */
+export async function until(condition: () => boolean): Promise<void> {
+  for (let turn = 0; !condition(); turn++) {
+    if (turn >= MOST_TURNS) throw new Error(`never: ${condition}`)
+    await settle()
+  }
 }
 
 /** Runs with a PLC and a client, and ends both. */
