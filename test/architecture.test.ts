@@ -190,7 +190,7 @@ describe('the rules themselves catch', () => {
 
   test('timers, the clock and the process', () => {
     const text = `setTimeout(run, 1); globalThis.setInterval(run, 1); Date.now(); performance.now(); process.exit()`
-    expect(brokenNames(readSource('src/client/made-up.ts', text))).toHaveLength(5)
+    expect(brokenNames(readSource('src/melsec/made-up.ts', text))).toHaveLength(5)
     expect(brokenNames(readSource('src/cli/made-up.ts', text))).toHaveLength(4)
     expect(brokenNames(readSource('src/transport/made-up.ts', text))).toEqual([])
     expect(brokenNames(readSource('src/client/made-up.ts', '/* setTimeout */ const text = "Date.now"'))).toEqual([])

@@ -359,8 +359,16 @@ export class MelsecClient {
         send: (options) => this.#within(options),
         time: () => this.#settings.clock.time(),
         registration: this.#registration,
+        unusable: this.#monitorUnusable(),
       },
     )
+  }
+
+  /** The PLC registers per connection, and over UDP that is the local port. */
+  #monitorUnusable(): string | undefined {
+    const { transport, frame } = this.#settings
+    if (transport !== 'udp' || frame !== '3E') return undefined
+    return 'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the registration again. The 4E frame or TCP would.'
   }
 
   /**

@@ -21,6 +21,8 @@ export interface MonitorOptions<Head> {
   readonly send: (options: CallOptions | undefined) => Send<Head>
   readonly time: () => number
   readonly registration: Registration
+  /** Why no registration can last on this connection, in words. */
+  readonly unusable?: string | undefined
 }
 
 /**
@@ -79,6 +81,7 @@ export class ItemMonitor<Head> implements Monitor {
     this.#options = options
     this.#plan = planRead(items, protocol, options)
     try {
+      if (options.unusable !== undefined) throw new RequestError('UNSUPPORTED', options.unusable)
       this.#registered = new Registered(items, protocol, options)
     } catch (error) {
       if (!(error instanceof RequestError)) throw error

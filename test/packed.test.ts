@@ -1,0 +1,102 @@
+// The package as a user gets it: packed, installed into an empty project, required, imported and compiled against.
+import { execFile } from 'node:child_process'
+import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
+import { tmpdir } from 'node:os'
+import { join } from 'node:path'
+import { promisify } from 'node:util'
+import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
+import { root } from './support/root'
+
+const run = promisify(execFile)
+const MINUTES = 60_000
+const folder = mkdtempSync(join(tmpdir(), 'melsec-jw-packed-'))
+const project = join(folder, 'project')
+const tsc = join(root, 'node_modules', 'typescript', 'bin', 'tsc')
+
+async function npm(args: readonly string[], cwd: string): Promise<string> {
+  const { stdout } = await run('npm', [...args, '--no-audit', '--no-fund', '--loglevel=error'], { cwd })
+  return stdout
+}
+
+beforeAll(async () => {
+  const packed = await npm(['pack', '--ignore-scripts', '--json', '--pack-destination', folder], root)
+  const [{ filename }] = JSON.parse(packed) as [{ filename: string }]
+  mkdirSync(project)
+  writeFileSync(join(project, 'package.json'), JSON.stringify({ name: 'user', private: true }))
+  await npm(['install', join(folder, filename)], project)
+  // What every TypeScript project for Node.js has.
+  mkdirSync(join(project, 'node_modules', '@types'), { recursive: true })
+  for (const name of ['@types/node', 'undici-types']) {
+    symlinkSync(join(root, 'node_modules', name), join(project, 'node_modules', name))
+  }
+}, 3 * MINUTES)
+
+afterAll(() => rmSync(folder, { recursive: true, force: true }))
+
+async function node(file: string, text: string): Promise<string> {
+  writeFileSync(join(project, file), text)
+  const { stdout } = await run(process.execPath, [file], { cwd: project })
+  return stdout.trim()
+}
+
+const names = Object.keys(createRequire(join(root, 'package.json'))('./dist/src/index.js') as object).sort()
+
+describe('the packed package in an empty project', () => {
+  test('has a client and a simulator among its names', () => {
+    expect(names).toEqual(expect.arrayContaining(['createMelsecClient', 'createPlcSimulator', 'commands', 'PlcError']))
+  })
+
+  test('gives its names to require', async () => {
+    const text = `console.log(JSON.stringify(Object.keys(require('@melsec-jw/plc')).sort()))`
+    expect(JSON.parse(await node('required.cjs', text))).toEqual(names)
+  })
+
+  test('gives the same names to import', async () => {
+    const text = `import { ${names.join(', ')} } from '@melsec-jw/plc'
+console.log(JSON.stringify(Object.entries({ ${names.join(', ')} }).filter(([, value]) => value !== undefined).map(([name]) => name)))`
+    expect(JSON.parse(await node('imported.mjs', text))).toEqual(names)
+  })
+
+  test('reads a simulated PLC in a program of the user', async () => {
+    const text = `import { createMelsecClient, createPlcSimulator } from '@melsec-jw/plc'
+const plc = createPlcSimulator({ profile: 'iq-r' })
+await plc.listen()
+const client = createMelsecClient({ host: '127.0.0.1', port: plc.tcp.port, profile: 'iq-r', allowWrites: true })
+await client.write('D100:REAL', 71.5)
+console.log(await client.read('D100:REAL'))
+await client.close()
+await plc.close()`
+    expect(await node('program.mjs', text)).toBe('71.5')
+  })
+
+  test('has its command line', async () => {
+    const { stdout } = await run(join(project, 'node_modules', '.bin', 'melsec-jw'), ['--help'], { cwd: project })
+    expect(stdout).toContain('simulate')
+  })
+
+  const program = `import { createMelsecClient, type ReadResult } from '@melsec-jw/plc'
+const plc = createMelsecClient({ host: '192.0.2.1', port: 5007 })
+export async function level(): Promise<number> {
+  const results: ReadResult[] = await plc.read(['D100', 'M0'])
+  const { temperature } = await plc.readValues({ temperature: 'D102:REAL' })
+  return results.length + temperature + (await plc.read('D100:REAL'))
+}
+// @ts-expect-error a number is not a host
+createMelsecClient({ host: 5, port: 5007 })
+`
+  test.each([
+    ['node16', 'node16', 'program.mts'],
+    ['node16', 'node16', 'program.cts'],
+    ['bundler', 'esnext', 'program.ts'],
+  ])(
+    'has types that resolve under %s (%s, %s)',
+    async (moduleResolution, module, file) => {
+      writeFileSync(join(project, file), program)
+      const options = ['--noEmit', '--strict', '--target', 'es2022', '--types', 'node', '--module', module]
+      const args = [tsc, ...options, '--moduleResolution', moduleResolution, file]
+      await expect(run(process.execPath, args, { cwd: project })).resolves.toMatchObject({ stdout: '' })
+    },
+    MINUTES,
+  )
+})
