@@ -1,0 +1,87 @@
+/** A session with the time as a number, and the PLC's side of its frames. */
+import {
+  type Framing,
+  type Job,
+  type RequestFrame,
+  Session,
+  type SessionEvent,
+  type SessionOptions,
+} from '../../src/link/link'
+import type { Head3e } from '../../src/melsec/frame-3e'
+import { ownStation } from '../../src/melsec/route'
+
+export const HEAD: Head3e = { route: ownStation, timer: 0 }
+
+export interface TestJob extends Job<Head3e> {
+  readonly name: string
+}
+
+/** The body names the job, so that the PLC's side can tell the requests apart. */
+export function job(name: string, deadline = 1000): TestJob {
+  return { name, deadline, head: HEAD, body: Buffer.from(name), responseLength: () => undefined }
+}
+
+export type TestSession = Session<Head3e, TestJob>
+
+export function sessionOf(framing: Framing<Head3e>, options: Partial<SessionOptions> = {}): TestSession {
+  return new Session<Head3e, TestJob>(framing, { kind: 'stream', window: 1, ...options })
+}
+
+/** What the session wants to send, as the PLC reads it. */
+export function sent(session: TestSession, framing: Framing<Head3e>): RequestFrame<Head3e>[] {
+  const requests: RequestFrame<Head3e>[] = []
+  for (let bytes = session.transmit(); bytes !== undefined; bytes = session.transmit()) {
+    const scanned = framing.request.scan(bytes, () => undefined)
+    if (scanned?.used !== bytes.length) throw new Error('the session sent something else than one frame')
+    requests.push(scanned.frame)
+  }
+  return requests
+}
+
+/** The answer to a request: its own body, so that it shows whose answer it is. */
+export function answer(
+  framing: Framing<Head3e>,
+  request: Pick<RequestFrame<Head3e>, 'serial' | 'body'>,
+  { head = HEAD, endCode = 0 } = {},
+): Buffer {
+  return framing.response.write(head, request.serial ?? 0, endCode, request.body)
+}
+
+export function eventsOf<Head, J extends Job<Head>>(session: Session<Head, J>): SessionEvent<Head, J>[] {
+  const events: SessionEvent<Head, J>[] = []
+  for (let event = session.poll(); event !== undefined; event = session.poll()) events.push(event)
+  return events
+}
+
+/** The events in short, e.g. `A answered A`, `B timedOut unsent`, `drop UNEXPECTED_ANSWER`. */
+export function told(session: TestSession): string[] {
+  return eventsOf(session).map((event) => {
+    switch (event.kind) {
+      case 'done':
+        return `${event.job.name} ${outcomeOf(event.outcome)}`
+      case 'unsolicited':
+        return `unsolicited ${event.frame.body.toString('latin1')}`
+      case 'stale':
+        return `stale ${event.serial ?? ''}`.trim()
+      case 'drop':
+        return `drop ${event.error.code}`
+      case 'renew':
+        return `renew ${event.reason}`
+      default:
+        return event satisfies never
+    }
+  })
+}
+
+type Outcome = Extract<SessionEvent<Head3e, TestJob>, { kind: 'done' }>['outcome']
+
+function outcomeOf(outcome: Outcome): string {
+  switch (outcome.kind) {
+    case 'answered':
+      return `answered ${outcome.frame.body.toString('latin1')}${outcome.frame.endCode === 0 ? '' : ` ${outcome.frame.endCode.toString(16)}`}`
+    case 'failed':
+      return `failed ${outcome.error.code}`
+    default:
+      return `${outcome.kind} ${outcome.sent ? 'sent' : 'unsent'}`
+  }
+}
