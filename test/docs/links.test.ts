@@ -3,7 +3,7 @@ import { existsSync } from 'node:fs'
 import { join, posix } from 'node:path'
 import { describe, expect, test } from '@jest/globals'
 import { root } from '../support/root'
-import { readText } from '../support/syntax'
+import { filesBelow, readText } from '../support/syntax'
 import { anchorsOf, codeSpansOf, fencesOf, pages, proseOf, targetsOf } from './markdown'
 
 /** What a link of a page leads to, within this project; undefined for addresses of the Internet. */
@@ -54,9 +54,10 @@ describe.each(pages)('%s', (page) => {
   })
 })
 
-test('every page of docs/ is linked from somewhere', () => {
+test('every page of docs/ and every example flow is linked from somewhere', () => {
   const linked = new Set(pages.flatMap((page) => targetsOf(page).map((target) => resolved(page, target)?.path)))
-  expect(pages.filter((page) => page.startsWith('docs/') && !linked.has(page))).toEqual([])
+  const toBeFound = [...pages.filter((page) => page.startsWith('docs/')), ...filesBelow('examples', '.json')]
+  expect(toBeFound.filter((path) => !linked.has(path))).toEqual([])
 })
 
 test('the rules themselves see links, anchors and excerpts', () => {
