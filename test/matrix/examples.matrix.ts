@@ -2,18 +2,13 @@
  * Run by `npm run test:matrix` for each Node-RED and Node.js: every example flow of the installed package, deployed
  * against its own simulated PLC, must send what expectations.json says.
  *
- * expectations.json: one entry for each file of examples/.
- * - `simulate`: options for `melsec-jw simulate`, e.g. `["--profile", "iq-f"]`; default none
- * - `connection`: settings put into the flow's connections besides `host` and `port`, e.g. `{ "allowWrites": true }`
- * - `steps`, in this order: `press` an inject node by its id, or hand `message` to the node `receive`; then the next
- *   message from output `output` (default 0) of the node `from` must contain `is`. In `is`, `{ "$any": "number" }`
- *   (or string, boolean, object, array) stands for any value of that kind.
- * Every node of ours that has outputs must be the `from` of some step.
+ * What they must send: see ../support/examples.ts.
  */
 import { execFileSync } from 'node:child_process'
 import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
+import { connectedTo, type Expectation, isOurs, take } from '../support/examples'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { startSimulator } from './simulator'
 
@@ -25,21 +20,6 @@ interface Runtime {
   readonly script: string
   readonly userDir: string
   readonly version: string
-}
-
-interface Step {
-  readonly press?: string
-  readonly receive?: string
-  readonly message?: Readonly<Record<string, unknown>>
-  readonly from?: string
-  readonly output?: number
-  readonly is?: unknown
-}
-
-interface Expectation {
-  readonly simulate?: readonly string[]
-  readonly connection?: Readonly<Record<string, unknown>>
-  readonly steps: readonly Step[]
 }
 
 const list = process.env.MELSEC_JW_MATRIX
@@ -57,47 +37,6 @@ function examplesOf(userDir: string): Map<string, FlowNode[]> {
   return new Map(
     files.map((name) => [name.replaceAll('\\', '/'), JSON.parse(readFileSync(join(folder, name), 'utf8'))]),
   )
-}
-
-const KINDS: Readonly<Record<string, unknown>> = {
-  number: expect.any(Number),
-  string: expect.any(String),
-  boolean: expect.any(Boolean),
-  object: expect.any(Object),
-  array: expect.any(Array),
-}
-
-function withKinds(value: unknown): unknown {
-  if (Array.isArray(value)) return value.map(withKinds)
-  if (typeof value !== 'object' || value === null) return value
-  if ('$any' in value) {
-    const kind = KINDS[String(value.$any)]
-    if (kind === undefined) throw new Error(`expectations.json: there is no kind ${String(value.$any)}`)
-    return kind
-  }
-  return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, withKinds(item)]))
-}
-
-function isOurs(node: FlowNode): boolean {
-  return node.type.startsWith('melsec-jw-')
-}
-
-/** The flow with its connections led to the simulated PLC. */
-function connectedTo(flow: readonly FlowNode[], port: number, settings: Expectation['connection']): FlowNode[] {
-  return flow.map((node) =>
-    node.type === 'melsec-jw-connection' ? { ...node, host: '127.0.0.1', port, ...settings } : node,
-  )
-}
-
-async function take(red: NodeRed, step: Step): Promise<void> {
-  if (step.press !== undefined) {
-    expect(await red.http('POST', `inject/${step.press}`)).toMatchObject({ status: 200 })
-  }
-  if (step.receive !== undefined) await red.receive(step.receive, step.message ?? {})
-  if (step.from !== undefined) {
-    const message = await red.next(step.from, step.output ?? 0)
-    expect({ from: step.from, message }).toMatchObject({ from: step.from, message: withKinds(step.is ?? {}) })
-  }
 }
 
 describe.each(runtimes)('$name', (runtime) => {

@@ -8,9 +8,9 @@ import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import type { Page } from 'playwright-core'
 import { devices, type PlcSimulator, profileIds, typeNames } from '../../src/index'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
-import { type NodeRed, startNodeRed } from '../support/node-red'
-import { readText } from '../support/syntax'
-import { connectionTo, controlNode, readNode, startPlc, writeNode } from './flow'
+import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
+import { filesBelow, readText } from '../support/syntax'
+import { connectionTo, controlNode, portOf, readNode, startPlc, writeNode } from './flow'
 
 const LANGUAGES = ['en-US', 'ja', 'zh-CN', 'zh-TW'] as const
 
@@ -40,12 +40,12 @@ afterAll(async () => {
 interface Editor {
   readonly RED: {
     readonly editor: { edit(node: unknown): void; editConfig(name: string, type: string, id: string): void }
+    readonly workspaces: { show(id: string): void }
     readonly nodes: {
       node(id: string): Record<string, unknown>
-      dirty(): boolean
+      eachNode(look: (node: { id: string; valid?: boolean }) => void): void
+      eachConfig(look: (node: { id: string; valid?: boolean }) => void): void
     }
-    readonly view: { importNodes(nodes: unknown, options: unknown): void }
-    _(key: string): string
   }
 }
 
@@ -277,6 +277,31 @@ test.each(LANGUAGES.slice(1))(
   },
   60_000,
 )
+
+test('in the example flows no node is marked as wrong', async () => {
+  const flows = filesBelow('examples', '.json').map((path) => JSON.parse(readText(path)) as FlowNode[])
+  await red.deploy(
+    flows.flat().map((node) => (node.type === 'melsec-jw-connection' ? { ...node, port: portOf(plc) } : node)),
+  )
+  const { page, problems, close: closePage } = await open('en-US')
+  const wrong = await page.evaluate(() => {
+    const found: string[] = []
+    const look = (node: { id: string; valid?: boolean }): void => {
+      if (node.valid === false) found.push(node.id)
+    }
+    const { RED } = globalThis as unknown as Editor
+    RED.nodes.eachNode(look)
+    RED.nodes.eachConfig(look)
+    return found
+  })
+  expect(wrong).toEqual([])
+  for (const { id, label } of flows.flat().filter(({ type }) => type === 'tab')) {
+    await page.evaluate((tab) => (globalThis as unknown as Editor).RED.workspaces.show(tab), id)
+    await picture(page, `example ${String(label)}`)
+  }
+  expect(problems).toEqual([])
+  await closePage()
+}, 60_000)
 
 describe.each(LANGUAGES)('in %s', (language) => {
   test('the titles of devices are there; the English ones are those of the library', () => {

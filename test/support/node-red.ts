@@ -250,7 +250,7 @@ class RunningNodeRed implements NodeRed {
       this.url = await this.#until('Node-RED to listen', START, () => {
         // The (empty) flows start by themselves first: their start must not be taken for that of the first deploy.
         const ready = this.#loaded && this.#starts > 0
-        return ready ? /now running at (http:\/\/\S+)/.exec(this.#output)?.[1] : undefined
+        return ready ? /(http:\/\/127\.0\.0\.1:\d+\/\S*)/.exec(this.#output)?.[1] : undefined
       })
     } catch (error) {
       this.child.kill('SIGKILL')

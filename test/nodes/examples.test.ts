@@ -1,0 +1,46 @@
+/** Every example flow, deployed against the simulated tank, sends what test/matrix/expectations.json says. */
+import { afterAll, beforeAll, expect, test } from '@jest/globals'
+import { type PlcSimulator, startDemoPlant } from '../../src/index'
+import { connectedTo, type Expectation, isOurs, take } from '../support/examples'
+import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
+import { filesBelow, readText } from '../support/syntax'
+import { portOf, startPlc } from './flow'
+
+const expectations = JSON.parse(readText('test/matrix/expectations.json')) as Record<string, Expectation>
+const files = filesBelow('examples', '.json').map((path) => path.replace(/^examples\//, ''))
+const flows = files.map((file): [string, FlowNode[]] => [file, JSON.parse(readText(`examples/${file}`)) as FlowNode[]])
+
+let red: NodeRed
+let plc: PlcSimulator
+
+beforeAll(async () => {
+  plc = await startPlc()
+  startDemoPlant(plc)
+  red = await startNodeRed()
+}, 60_000)
+
+afterAll(async () => {
+  await red.stop()
+  await plc.close()
+})
+
+test('every example has expectations', () => {
+  expect(Object.keys(expectations).sort()).toEqual([...files].sort())
+})
+
+test.each(flows)('%s explains itself, needs no other package, and has ids of its own', (file, flow) => {
+  expect(flow.filter(({ type }) => type === 'comment').length).toBeGreaterThan(0)
+  const core = ['tab', 'comment', 'inject', 'debug', 'catch', 'status', 'switch', 'change']
+  expect(flow.filter((node) => !core.includes(node.type) && !isOurs(node))).toEqual([])
+  const others = flows.filter(([other]) => other !== file).flatMap(([, nodes]) => nodes.map(({ id }) => id))
+  expect(flow.filter(({ id }) => others.includes(id))).toEqual([])
+})
+
+test.each(flows)('%s works', async (file, flow) => {
+  const { connection, steps } = expectations[file] ?? { steps: [] }
+  red.forget()
+  await red.deploy(connectedTo(flow, Number(portOf(plc)), connection))
+  for (const step of steps) await take(red, step)
+  expect(red.log.filter(({ level }) => level === 'error')).toEqual([])
+  await red.deploy([])
+})

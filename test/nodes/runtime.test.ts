@@ -1,0 +1,61 @@
+/** What depends on how Node-RED itself is set up: its language, and who may do what. */
+import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
+import type { PlcSimulator } from '../../src/index'
+import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
+import { type CaughtError, catchNode, connectionTo, portOf, readNode, startPlc, writeNode } from './flow'
+
+let plc: PlcSimulator
+
+beforeAll(async () => {
+  plc = await startPlc()
+})
+
+afterAll(() => plc.close())
+
+describe('in Japanese', () => {
+  let red: NodeRed
+
+  beforeAll(async () => {
+    red = await startNodeRed({ language: 'ja' })
+  }, 60_000)
+
+  afterAll(() => red.stop())
+
+  async function caught(id: string, message: object): Promise<CaughtError> {
+    await red.receive(id, { ...message })
+    return ((await red.next('catch')) as Message & { error: CaughtError }).error
+  }
+
+  test('the errors of the nodes, the meaning of end codes and statuses with numbers', async () => {
+    plc.faults.add({ kind: 'endCode', endCode: 0xc056, commands: ['readWords'] })
+    await red.deploy([connectionTo(plc), readNode(['D100']), writeNode(), catchNode()])
+    expect((await caught('write', { payload: { D1: 1 } })).message).toContain('書込み')
+    const { cause } = await caught('read', {})
+    expect(cause.meaning).toMatch(/[\u3040-\u30ff]/)
+    expect(cause.remedy).toMatch(/[\u3040-\u30ff]/)
+    await red.status('read', { text: '終了コード C056' })
+    plc.faults.clear()
+  })
+})
+
+describe('for a user who may only look', () => {
+  let red: NodeRed
+
+  beforeAll(async () => {
+    // Without signing in one has the permissions of `default`.
+    red = await startNodeRed({
+      settings: { adminAuth: { type: 'credentials', users: [], default: { permissions: 'read' } } },
+    })
+  }, 60_000)
+
+  afterAll(() => red.stop())
+
+  test('addresses are checked, and no connection is made', async () => {
+    const check = await red.http('POST', 'melsec-jw/address/check', { settings: {}, items: [{ address: 'D100' }] })
+    expect(check.json()).toMatchObject({ results: [{ ok: true }] })
+    const settings = { host: '127.0.0.1', port: portOf(plc), profile: 'iq-r' }
+    const before = plc.statistics.connections
+    expect((await red.http('POST', 'melsec-jw/connection/test', { settings })).status).toBe(401)
+    expect(plc.statistics.connections).toBe(before)
+  })
+})
