@@ -30,6 +30,12 @@ function listen() {
   })
 }
 
+/** Node-RED 4 lets every page that is open in the same browser deploy flows; nobody has to log in here. */
+function isFromElsewhere({ headers: { origin, host } }) {
+  if (origin === undefined) return false
+  return !URL.canParse(origin) || new URL(origin).host !== host
+}
+
 /** Settles when the flows run, or cannot: a node type is missing, or its module failed to load. */
 function flowsStarted() {
   return new Promise((done, failed) => {
@@ -49,7 +55,8 @@ async function start(folder) {
   const kept = putFlow(userDir)
   RED.init(server, settings(userDir))
   server.on('request', (request, response) => {
-    RED.httpAdmin(request, response, () => RED.httpNode(request, response))
+    if (isFromElsewhere(request)) response.writeHead(403).end()
+    else RED.httpAdmin(request, response, () => RED.httpNode(request, response))
   })
   const started = flowsStarted()
   await RED.start()

@@ -17,8 +17,6 @@ export function settings(userDir) {
     credentialSecret: 'demo',
     httpAdminRoot: '/',
     httpNodeRoot: '/',
-    // A page from elsewhere, open in the same browser, must not deploy flows here.
-    httpAdminCors: { origin: false },
     // The demo works without a network, and asks none.
     telemetry: { enabled: false, updateNotification: false },
     editorTheme: {

@@ -40,3 +40,23 @@ export function setPayload(expression, node) {
     reg: false,
   }
 }
+
+/** A Trigger node that passes the last message on when no other has come for a while; each topic by itself. */
+export function settled(ms, node) {
+  return {
+    ...node,
+    type: 'trigger',
+    op1: '',
+    op1type: 'nul',
+    op2: '',
+    op2type: 'payl',
+    duration: String(ms),
+    units: 'ms',
+    extend: true,
+    overrideDelay: false,
+    reset: '',
+    bytopic: 'topic',
+    topic: 'topic',
+    outputs: 1,
+  }
+}

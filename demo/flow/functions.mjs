@@ -34,6 +34,11 @@ export function connectionState(msg, context) {
   return [{ payload: { ...state } }, identify]
 }
 
+/** Function node "Trend": one number for each chart, which keeps every message for its history. */
+export function trend(msg) {
+  return [{ payload: msg.payload.level }, { payload: msg.payload.temperature }]
+}
+
 /**
  * Function node "Set-points that changed": what the PLC holds goes to the inputs when it is news to them, so that a
  * value somebody is about to type is not overwritten every second.

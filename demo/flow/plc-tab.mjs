@@ -1,8 +1,8 @@
 // The editor tab of one PLC: what is polled and shown, what is written, and how the connection is.
 import { tab } from './canvas.mjs'
-import { catchNode, functionNode, inject, setPayload } from './core.mjs'
+import { catchNode, functionNode, inject, setPayload, settled } from './core.mjs'
 import { groupId, text, ui } from './dashboard.mjs'
-import { connectionState, done, setPointsThatChanged, whatWentWrong } from './functions.mjs'
+import { connectionState, done, setPointsThatChanged, trend, whatWentWrong } from './functions.mjs'
 import * as widgets from './widgets.mjs'
 
 const LEVEL_COLOUR = '#1f6fb2'
@@ -119,11 +119,16 @@ function poll({ canvas, tags, group, uses, filled }) {
       label: 'Set-point',
       value: "$formatNumber(payload.temperatureSetPoint, '0.0') & ' °C'",
     }),
+    functionNode(trend, { id: 'trend', name: 'Trend', wires: [['level-trend'], ['temperature-trend']] }),
+    widgets.template(group('states'), { id: 'states', name: 'States', format: filled('states.vue') }),
+    widgets.template(group('batch'), { id: 'batch', name: 'Batch', format: filled('batch.vue') }),
+    canvas.linkOut({ id: 'values-out', name: 'values', to: ['values-to-setpoints', 'values-to-state'] }),
+  ]
+  const charts = [
     widgets.chart(group('trend'), {
       id: 'level-trend',
       order: 1,
       label: 'Level [l]',
-      series: 'level',
       ymax: 1000,
       colour: LEVEL_COLOUR,
     }),
@@ -131,15 +136,11 @@ function poll({ canvas, tags, group, uses, filled }) {
       id: 'temperature-trend',
       order: 2,
       label: 'Temperature [°C]',
-      series: 'temperature',
       ymax: 100,
       colour: HEAT_COLOUR,
     }),
-    widgets.template(group('states'), { id: 'states', name: 'States', format: filled('states.vue') }),
-    widgets.template(group('batch'), { id: 'batch', name: 'Batch', format: filled('batch.vue') }),
-    canvas.linkOut({ id: 'values-out', name: 'values', to: ['values-to-setpoints', 'values-to-state'] }),
   ]
-  canvas.frame('poll', 'Read every second, and show', { x: 20, y: 20, width: 600, rows: shown.length }, [
+  canvas.frame('poll', 'Read every second, and show', { x: 20, y: 20, width: 780, rows: shown.length }, [
     inject({ id: 'every-second', column: 0, row: 4, name: 'every second', every: 1, wires: [['read']] }),
     {
       id: 'read',
@@ -158,6 +159,7 @@ function poll({ canvas, tags, group, uses, filled }) {
       wires: [shown.map(({ id }) => id)],
     },
     ...shown.map((node, row) => ({ ...node, column, row })),
+    ...charts.map((node, index) => ({ ...node, column: column + 170, row: index + 3.5 })),
   ])
 }
 
@@ -175,7 +177,7 @@ function control({ uses, ...node }) {
 
 function state({ canvas, group, uses, filled }) {
   const known = [['connection-state']]
-  canvas.frame('state', 'Connection and round trip', { x: 660, y: 20, width: 680, rows: 5 }, [
+  canvas.frame('state', 'Connection and round trip', { x: 840, y: 20, width: 680, rows: 5 }, [
     inject({
       id: 'every-two',
       column: 0,
@@ -223,7 +225,7 @@ function state({ canvas, group, uses, filled }) {
 }
 
 function remote({ canvas, group, uses, filled }) {
-  canvas.frame('remote-frame', 'Remote RUN / STOP, after a question', { x: 660, y: 350, width: 680, rows: 1 }, [
+  canvas.frame('remote-frame', 'Remote RUN / STOP, after a question', { x: 840, y: 350, width: 680, rows: 1 }, [
     {
       ...widgets.template(group('operate'), { id: 'cpu', name: 'CPU RUN / STOP', format: filled('cpu.vue'), order: 4 }),
       ...widgets.size(3, 3),
@@ -285,7 +287,7 @@ function operate({ canvas, tags, group, uses }) {
       colour: '#b07d00',
     }),
   ]
-  canvas.frame('operate', 'Write what is set or pressed', { x: 20, y: 630, width: 1180, rows: 7 }, [
+  canvas.frame('operate', 'Write what is set or pressed', { x: 20, y: 630, width: 1290, rows: 7 }, [
     canvas.linkIn({
       id: 'values-to-setpoints',
       column: 0,
@@ -310,11 +312,15 @@ function operate({ canvas, tags, group, uses }) {
       name: 'Set-points that changed',
       wires: inputs.map(({ id }) => [id]),
     }),
-    ...[...inputs, ...buttons].map((node, row) => ({ ...node, column: 500, row, wires: [['by-name']] })),
-    setPayload('{ topic: payload }', { id: 'by-name', column: 760, row: 3, name: 'value by name', wires: [['write']] }),
+    ...[...inputs, ...buttons].map((node, row) => {
+      const to = node.type === 'ui-slider' ? 'settled' : 'by-name'
+      return { ...node, column: 480, row, wires: [[to]] }
+    }),
+    settled(400, { id: 'settled', column: 730, row: 1, name: 'stands still', wires: [['by-name']] }),
+    setPayload('{ topic: payload }', { id: 'by-name', column: 890, row: 3, name: 'value by name', wires: [['write']] }),
     {
       id: 'write',
-      column: 940,
+      column: 1060,
       row: 3,
       type: 'melsec-jw-write',
       name: 'mixing tank',
@@ -330,12 +336,12 @@ function operate({ canvas, tags, group, uses }) {
       readModifyWrite: false,
       wires: [['again-out']],
     },
-    canvas.linkOut({ id: 'again-out', column: 1120, row: 3, name: 'show again', to: ['again-in'] }),
+    canvas.linkOut({ id: 'again-out', column: 1220, row: 3, name: 'show again', to: ['again-in'] }),
   ])
 }
 
 function failures({ canvas }) {
-  canvas.frame('failures', 'What was operated and has failed', { x: 660, y: 470, width: 680, rows: 2 }, [
+  canvas.frame('failures', 'What was operated and has failed', { x: 840, y: 470, width: 680, rows: 2 }, [
     catchNode({
       id: 'failed',
       column: 0,

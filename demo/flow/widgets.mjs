@@ -51,16 +51,17 @@ export function text(group, { value, ...node }) {
   }
 }
 
-/** @param series key of the payload that it shows */
-export function chart(group, { series, ymax, colour, ...node }) {
+/** A trend of the payload, a number. */
+export function chart(group, { ymax, colour, ...node }) {
   return {
     ...node,
     type: 'ui-chart',
     group,
     name: '',
     chartType: 'line',
-    category: JSON.stringify([series]),
-    categoryType: 'json',
+    // Not by a key of the payload (json): of such series the dashboard forgets the history.
+    category: node.label,
+    categoryType: 'str',
     xAxisLabel: '',
     xAxisProperty: '',
     xAxisPropertyType: 'timestamp',
@@ -70,8 +71,8 @@ export function chart(group, { series, ymax, colour, ...node }) {
     xmin: '',
     xmax: '',
     yAxisLabel: '',
-    yAxisProperty: '',
-    yAxisPropertyType: 'property',
+    yAxisProperty: 'payload',
+    yAxisPropertyType: 'msg',
     ymin: '0',
     ymax: String(ymax),
     bins: 10,
@@ -152,6 +153,7 @@ export function button(group, { topic, icon, colour, ...node }) {
   }
 }
 
+/** Sends every position on the way, so that the keyboard works, too; the flow waits until it stands still. */
 export function slider(group, { topic, ...node }) {
   return {
     ...node,
@@ -161,8 +163,7 @@ export function slider(group, { topic, ...node }) {
     tooltip: '',
     ...size(3, 2),
     passthru: false,
-    // When it is let go: every position on the way would be a write.
-    outs: 'end',
+    outs: 'all',
     topic,
     topicType: 'str',
     thumbLabel: 'true',
