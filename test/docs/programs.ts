@@ -26,6 +26,14 @@ export class Bench {
     this.#simulators.clear()
   }
 
+  /** `192.168.3.39:5010`, as it is typed on a command line, led to the simulated PLC; any other text as it is. */
+  addressOf(text: string): string {
+    const [, port] = /^192\.168\.3\.\d+:(\d+)$/.exec(text) ?? []
+    if (port === undefined) return text
+    const { host, port: here } = this.#ledHere({ host: '', port: Number(port) })
+    return `${host}:${here}`
+  }
+
   /** @returns what the program printed. */
   async run({ text }: Fence): Promise<string> {
     const printed: string[] = []
