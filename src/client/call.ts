@@ -41,7 +41,7 @@ export interface Settle<Head> {
 /** One request of the caller: the job the session carries. Settled exactly once. */
 export class Call<Head> implements Job<Head> {
   #signal: AbortSignal | undefined
-  #onAbort: (() => void) | undefined
+  #unwatch: (() => void) | undefined
   #settled = false
   readonly #settle: Settle<Head>
 
@@ -67,11 +67,10 @@ export class Call<Head> implements Job<Head> {
     return this.exchange.responseLength
   }
 
-  /** Calls `onAbort` when the signal is aborted before the call is settled. */
-  watch(signal: AbortSignal, onAbort: () => void): void {
+  /** The signal that may abort it, and what ends the watching: done when the call is settled. */
+  abortedBy(signal: AbortSignal, unwatch: () => void): void {
     this.#signal = signal
-    this.#onAbort = onAbort
-    signal.addEventListener('abort', onAbort, { once: true })
+    this.#unwatch = unwatch
   }
 
   /** Settles with the answer. @returns the error the answer turned out to be, if any. */
@@ -100,7 +99,7 @@ export class Call<Head> implements Job<Head> {
   #finish(): boolean {
     if (this.#settled) return false
     this.#settled = true
-    if (this.#onAbort !== undefined) this.#signal?.removeEventListener('abort', this.#onAbort)
+    this.#unwatch?.()
     return true
   }
 }

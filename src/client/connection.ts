@@ -15,6 +15,7 @@ import { Alarm } from './alarm'
 import { Call, type CallOptions, optionProblem, type Settle } from './call'
 import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
 import * as failure from './failure'
+import { Signals } from './signals'
 import { Counters, type Statistics } from './statistics'
 import { Supervisor } from './supervisor'
 import { tell } from './tell'
@@ -31,6 +32,7 @@ export class Connection<Head> {
   readonly #counters = new Counters()
   readonly #serials: SerialNumbers
   readonly #alarm: Alarm
+  readonly #signals = new Signals()
   /** Calls that wait for the connection. */
   #held: Call<Head>[] = []
   #transport: Transport | undefined
@@ -113,7 +115,12 @@ export class Connection<Head> {
     const now = this.#clock.now()
     const call = new Call(exchange, now + timeout, settle, sends)
     if (sends) this.#counters.add('requests')
-    if (signal !== undefined) call.watch(signal, () => this.#guard(() => this.#abort(call)))
+    if (signal !== undefined) {
+      call.abortedBy(
+        signal,
+        this.#signals.watch(signal, () => this.#guard(() => this.#abort(call))),
+      )
+    }
     this.#guard(() => this.#start(call, now))
   }
 
@@ -269,13 +276,13 @@ export class Connection<Head> {
     this.#attemptDeadline = undefined
   }
 
-  #lost(error: PlcError, pauseAtLeast = 0): void {
+  #lost(error: PlcError): void {
     if (this.#supervisor.name === 'closed') return
     const session = this.#session
     const probe = this.#probe
-    const rest = session !== undefined && session.inFlight > 0 ? this.#restOfPort() : 0
+    const rest = session === undefined ? 0 : this.#restOfPort()
     this.#dropTransport()
-    this.#supervisor.lost(error, this.#clock.now(), Math.max(pauseAtLeast, rest))
+    this.#supervisor.lost(error, this.#clock.now(), rest)
     if (session !== undefined) {
       this.#counters.add('disconnects')
       session.disconnected()
@@ -291,8 +298,8 @@ export class Connection<Head> {
   }
 
   /**
-   * How long the local port must be left alone when a request on it has no answer: on a fixed port a late answer still
-   * arrives, and without a serial number it would be taken for the next one.
+   * How long the local port must be left alone: where it is fixed a late answer still arrives on it, and without a
+   * serial number it would be taken for the next one.
    */
   #restOfPort(): number {
     const { framing, timeout } = this.#options
@@ -386,10 +393,10 @@ export class Connection<Head> {
     }
   }
 
-  /** Where the local port is fixed a late answer can still arrive, so after a timeout the port is left alone for a while. */
+  /** Where the local port is fixed a late answer can still arrive, so after a timeout it must rest: see #restOfPort. */
   #renew(reason: 'answered' | 'givenUp'): void {
     if (this.#transport?.renew() === true || reason === 'answered') return
-    this.#lost(failure.quarantine(this.#peer()), this.#options.timeout)
+    this.#lost(failure.quarantine(this.#peer()))
   }
 
   #settle({ job, outcome, sentAt }: Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>): void {
@@ -420,7 +427,7 @@ export class Connection<Head> {
     if (sent && !job.exchange.answered) {
       this.#takeAsDone(job)
       // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.
-      this.#lost(failure.reset(this.#peer()), this.#restOfPort())
+      this.#lost(failure.reset(this.#peer()))
       return
     }
     if (!isProbe) this.#counters.add('timeouts')
@@ -433,9 +440,7 @@ export class Connection<Head> {
     job.fail(error)
     this.#silent += 1
     // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
-    if (isProbe || this.#silent >= SILENT_REQUESTS) {
-      this.#lost(failure.silent(this.#peer(), causes, error), this.#restOfPort())
-    }
+    if (isProbe || this.#silent >= SILENT_REQUESTS) this.#lost(failure.silent(this.#peer(), causes, error))
   }
 
   /** A call that waited for the connection in vain. */

@@ -1,0 +1,157 @@
+/** A connection to a scripted PLC in memory, with a clock made of numbers: nothing happens unless the test says so. */
+import { Connection, type ConnectionOptions, type ConnectionState } from '../../src/client/connection'
+import type { PlcError } from '../../src/errors'
+import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
+import { manualClock } from '../../src/transport/clock'
+import { listenMemory } from '../../src/transport/memory'
+import type { OpenTransport, Transport } from '../../src/transport/transport'
+import { exchanges, type Frame, ScriptedPlc } from './scripted-plc'
+
+export type Kind = 'stream' | 'datagram'
+
+export interface BenchOptions extends Partial<ConnectionOptions<Head3e>> {
+  readonly kind?: Kind
+  readonly frame?: Frame
+  /** As with a local port that the user fixed: `renew()` cannot promise anything. */
+  readonly fixedPort?: boolean
+}
+
+export const CAUSES = ['the data code differs', 'the port is another service']
+
+export class Bench {
+  readonly clock = manualClock()
+  readonly framing
+  readonly plc: ScriptedPlc
+  readonly memory
+  readonly connection: Connection<Head3e>
+  readonly ask
+  readonly states: ConnectionState[] = []
+  readonly unsolicited: string[] = []
+  /** Calls of `renew` by the connection. */
+  renewed = 0
+  readonly #tracked: Tracked<unknown>[] = []
+
+  constructor({ kind = 'stream', frame = '3E', fixedPort = false, ...options }: BenchOptions = {}) {
+    this.framing = frame3e(frame, 'binary')
+    this.plc = new ScriptedPlc(frame, kind)
+    this.memory = listenMemory({ kind, delivery: 'manual' }, this.plc.accept)
+    this.ask = exchanges(frame)
+    this.connection = new Connection<Head3e>({
+      framing: this.framing,
+      openTransport: this.#openTransport(fixedPort),
+      clock: this.clock,
+      supervisor: { first: 500, longest: 30_000, settleGap: 50, random: () => 0 },
+      inFlight: 1,
+      queueLimit: 256,
+      connectTimeout: 5000,
+      timeout: 1000,
+      probe: this.ask.probe,
+      explainSilence: () => CAUSES,
+      onState: (state) => this.states.push(state),
+      onUnsolicited: ({ body }) => this.unsolicited.push(String(body)),
+      ...options,
+    })
+  }
+
+  #openTransport(fixedPort: boolean): OpenTransport {
+    return () => {
+      const transport = this.memory.open()
+      const renew = (): boolean => {
+        this.renewed += 1
+        return fixedPort ? false : transport.renew()
+      }
+      return new Proxy<Transport>(transport, {
+        get: (target, name) => {
+          if (name === 'renew') return renew
+          const value: unknown = Reflect.get(target, name)
+          return typeof value === 'function' ? value.bind(target) : value
+        },
+      })
+    }
+  }
+
+  /** A connection on which the PLC has answered, that is old enough to count as a good one. */
+  static async connected(options: BenchOptions = {}): Promise<Bench> {
+    const bench = new Bench(options)
+    bench.follow(bench.connection.connect())
+    await bench.settle()
+    if (bench.connection.state.name !== 'connected') throw new Error('the bench has no connection')
+    await bench.pass(10_000)
+    bench.states.length = 0
+    return bench
+  }
+
+  /** Delivers everything under way and lets promises run, until nothing more comes of it. */
+  async settle(): Promise<void> {
+    do await new Promise<void>((resolve) => setImmediate(resolve))
+    while (this.memory.deliver() > 0)
+  }
+
+  /** Lets time pass, with deliveries after each timer. */
+  async pass(ms: number): Promise<void> {
+    const end = this.clock.now() + ms
+    await this.settle()
+    for (
+      let next = this.clock.untilNext;
+      next !== undefined && this.clock.now() + next <= end;
+      next = this.clock.untilNext
+    ) {
+      this.clock.advance(next)
+      await this.settle()
+    }
+    this.clock.advance(end - this.clock.now())
+  }
+
+  follow<T>(promise: Promise<T>): Tracked<T> {
+    const tracked = new Tracked(promise)
+    this.#tracked.push(tracked)
+    return tracked
+  }
+
+  read(number: number, options?: Parameters<Connection<Head3e>['request']>[1]) {
+    return this.follow(this.connection.request(this.ask.read(number), options))
+  }
+
+  write(number: number, value: number, options?: Parameters<Connection<Head3e>['request']>[1]) {
+    return this.follow(this.connection.request(this.ask.write(number, value), options))
+  }
+
+  get state(): string {
+    return this.connection.state.name
+  }
+
+  /** What is left when all is over: timers, connections, calls that nobody settled. */
+  get leftovers() {
+    return {
+      timers: this.clock.pending,
+      connections: this.plc.open,
+      unsettled: this.#tracked.filter(({ settled }) => settled !== 1).length,
+    }
+  }
+}
+
+/** What became of a promise. */
+export class Tracked<T> {
+  settled = 0
+  value: T | undefined
+  error: PlcError | undefined
+
+  constructor(promise: Promise<T>) {
+    promise.then(
+      (value) => {
+        this.settled += 1
+        this.value = value
+      },
+      (error: PlcError) => {
+        this.settled += 1
+        this.error = error
+      },
+    )
+  }
+
+  /** In short: the value, or code and outcome of the error. */
+  get told(): unknown {
+    if (this.settled === 0) return 'pending'
+    return this.error === undefined ? this.value : `${this.error.code} ${this.error.outcome}`
+  }
+}

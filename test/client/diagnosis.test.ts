@@ -1,0 +1,55 @@
+// Why a PLC that can be reached says nothing.
+import { describe, expect, test } from '@jest/globals'
+import { explainSilence, type LinkSettings } from '../../src/client/diagnosis'
+import { ownStation } from '../../src/melsec/route'
+
+const settings: LinkSettings = { transport: 'tcp', port: 5007, frame: '3E', code: 'binary', route: ownStation }
+const fresh = { peer: 'tcp 192.168.3.39:5007', answeredBefore: false }
+const explain = (given: Partial<LinkSettings>) => explainSilence({ ...settings, ...given }, fresh)
+
+describe('a PLC that has never answered', () => {
+  test('over TCP has most likely another data code, then another service on the port, then another frame', () => {
+    const causes = explain({})
+    expect(causes).toHaveLength(4)
+    expect(causes[0]).toContain('set to ASCII code and this connection to binary')
+    expect(causes[1]).toContain('Port 5007 is open for something else')
+    expect(causes[2]).toContain('does not know the 3E frame: try 4E')
+    expect(causes[3]).toContain('raise the timeout')
+  })
+
+  test('over UDP most likely answers another peer', () => {
+    const [first, second, ...rest] = explain({ transport: 'udp' })
+    expect(first).toContain("register this computer's address and set a fixed local port here")
+    expect(second).toContain('ASCII code')
+    expect(rest).toHaveLength(3)
+    expect(explain({ transport: 'udp', localPort: 6000 })[0]).toContain("this computer's address and port 6000")
+  })
+
+  test.each([
+    [{ code: 'ascii' }, 'set to binary code and this connection to ascii'],
+    [{ frame: '4E' }, 'does not know the 4E frame: try 3E (iQ-F and older E71 modules have 3E only)'],
+  ] as const)('%j is named as it is set', (given, says) => {
+    expect(explain(given).join('\n')).toContain(says)
+  })
+
+  test.each([
+    { network: 1, station: 0xff },
+    { network: 0, station: 3 },
+  ])('behind a route ($network, $station) is most likely not there', (route) => {
+    expect(explain({ route })[0]).toContain(`Network ${route.network}, station ${route.station} does not answer`)
+    expect(explain({ route })).toHaveLength(5)
+  })
+
+  test('every cause says what to check', () => {
+    for (const cause of explain({ transport: 'udp', frame: '4E', route: { network: 2, station: 1 } })) {
+      expect(cause).toMatch(/compare|register|use the port|try|check|raise/)
+    }
+  })
+})
+
+test('a PLC that has answered before is off, slow, or was set differently', () => {
+  const causes = explainSilence(settings, { ...fresh, answeredBefore: true })
+  expect(causes[0]).toContain('off, restarting, or its cable')
+  expect(causes.join(' ')).not.toContain('ASCII code and this connection')
+  expect(causes).toHaveLength(3)
+})

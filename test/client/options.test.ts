@@ -1,0 +1,132 @@
+// The options of a client: what is filled in, and what is refused before anything is connected.
+import { describe, expect, test } from '@jest/globals'
+import { type MelsecClientOptions, settle } from '../../src/client/options'
+import { RequestError } from '../../src/errors'
+import { profileIds } from '../../src/melsec/profile'
+import { ownStation } from '../../src/melsec/route'
+import { realClock } from '../../src/transport/clock'
+
+const peer = { host: '192.168.3.39', port: 5007 }
+
+describe('defaults', () => {
+  test('a host and a port are enough', () => {
+    const { profile, clock, random, ...settings } = settle(peer)
+    expect(profile.id).toBe('generic')
+    expect([clock, random]).toEqual([realClock, Math.random])
+    expect(settings).toEqual({
+      transport: 'tcp',
+      frame: '3E',
+      code: 'binary',
+      route: ownStation,
+      timer: 0,
+      xyRadix: 16,
+      xyUnknown: true,
+      timeout: 3000,
+      connectTimeout: 5000,
+      inFlight: 1,
+      queueLimit: 256,
+      allowWrites: false,
+      allowControl: false,
+      gap: 64,
+      format: {},
+      first: 500,
+      longest: 30_000,
+      settleGap: 50,
+    })
+  })
+
+  test.each(profileIds)('of the profile %s are its own', (id) => {
+    const { profile, frame, code, timer, xyRadix } = settle({ ...peer, profile: id })
+    expect([frame, code, timer * 250, xyRadix]).toEqual([
+      profile.frame,
+      profile.code,
+      profile.monitoringTimer.default,
+      profile.xyRadix,
+    ])
+  })
+
+  test('what is given wins over the profile', () => {
+    const given = { profile: 'iq-r', frame: '3E', code: 'ascii', xyRadix: 8, monitoringTimer: 500 } as const
+    expect(settle({ ...peer, ...given })).toMatchObject({ frame: '3E', code: 'ascii', xyRadix: 8, timer: 2 })
+  })
+
+  test('the numbering of X and Y is known with a profile, with xyRadix, and with an override', () => {
+    expect(settle({ ...peer, profile: 'iq-f' })).toMatchObject({ xyRadix: 8, xyUnknown: false })
+    expect(settle({ ...peer, xyRadix: 16 })).toMatchObject({ xyRadix: 16, xyUnknown: false })
+    expect(settle({ ...peer, profileOverrides: { xyRadix: 8 } })).toMatchObject({ xyRadix: 8, xyUnknown: false })
+  })
+
+  test('a part of the route is completed', () => {
+    expect(settle({ ...peer, route: { network: 1, station: 3 } }).route).toEqual({
+      ...ownStation,
+      network: 1,
+      station: 3,
+    })
+  })
+
+  test('with a transport of its own the client needs no host and no port', () => {
+    const openTransport = () => {
+      throw new Error('not yet')
+    }
+    expect(settle({ host: '', port: 0, openTransport })).toMatchObject({ transport: 'tcp' })
+  })
+})
+
+describe('refused', () => {
+  // As programs without types call it.
+  const cases: readonly [what: string, given: Record<string, unknown>, field: string, says: string][] = [
+    ['no host', { host: undefined }, 'host', 'host is missing'],
+    ['an empty host', { host: ' ' }, 'host', 'host is missing'],
+    ['no port', { port: undefined }, 'port', 'port is undefined; it must be a whole number from 1 to 65535'],
+    ['port 0', { port: 0 }, 'port', 'port is 0'],
+    ['a port that is text', { port: '5007' }, 'port', 'port is 5007'],
+    ['another transport', { transport: 'serial' }, 'transport', 'must be tcp or udp'],
+    ['another profile', { profile: 'fx3' }, 'profile', 'Choose one of: iq-r, iq-f, q, l, generic'],
+    ['another frame', { frame: '2E' }, 'frame', 'has no 2E frame'],
+    ['a frame the family lacks', { profile: 'iq-f', frame: '4E' }, 'frame', 'has no 4E frame: use 3E'],
+    ['another code', { code: 'hex' }, 'code', 'must be binary or ascii'],
+    ['another radix', { xyRadix: 10 }, 'xyRadix', 'must be 8 or 16'],
+    ['a station that does not exist', { route: { network: 1, station: 200 } }, 'route.station', ''],
+    ['a misspelt field of the route', { route: { net: 1 } }, 'route.net', 'A route has no "net"'],
+    ['half a timer step', { profile: 'iq-r', monitoringTimer: 300 }, 'monitoringTimer', 'steps of 250 ms'],
+    ['a timer that is too long', { profile: 'iq-r', monitoringTimer: 250 * 65_536 }, 'monitoringTimer', 'to 16383750'],
+    [
+      'a timer where only 0 is taken',
+      { profile: 'iq-f', monitoringTimer: 250 },
+      'monitoringTimer',
+      'takes monitoringTimer 0 only',
+    ],
+    ['no time at all', { timeout: 0 }, 'timeout', 'from 1 to'],
+    ['time without end', { timeout: Number.POSITIVE_INFINITY }, 'timeout', 'timeout is Infinity'],
+    ['a time that is text', { connectTimeout: '5000' }, 'connectTimeout', 'connectTimeout is 5000'],
+    ['no request in flight', { inFlight: 0 }, 'inFlight', 'from 1 to'],
+    [
+      'two in flight with 3E',
+      { transport: 'udp', profile: 'iq-r', frame: '3E', inFlight: 2 },
+      'inFlight',
+      'more needs the 4E frame over UDP',
+    ],
+    ['two in flight over TCP', { profile: 'iq-r', inFlight: 2 }, 'inFlight', 'more needs the 4E frame over UDP'],
+    ['more than the receive buffer holds', { transport: 'udp', profile: 'iq-r', inFlight: 34 }, 'inFlight', 'takes 33'],
+    ['no queue', { queueLimit: 0 }, 'queueLimit', 'from 1 to'],
+    ['permission that is text', { allowWrites: 'true' }, 'allowWrites', 'must be true or false'],
+    ['control that is a number', { allowControl: 1 }, 'allowControl', 'must be true or false'],
+    ['a gap longer than a request', { gap: 961 }, 'gap', 'from 0 to 960'],
+    ['another word order', { format: { wordOrder: 'big' } }, 'wordOrder', ''],
+    ['no first pause', { reconnect: { first: 0 } }, 'reconnect.first', 'from 1 to'],
+    ['a longest pause that is no number', { reconnect: { longest: Number.NaN } }, 'reconnect.longest', 'is NaN'],
+    ['a negative settle gap', { settleGap: -1 }, 'settleGap', 'from 0 to'],
+  ]
+  test.each(cases)('%s', (_what, given, field, says) => {
+    const refused = () => settle({ ...peer, ...given } as MelsecClientOptions)
+    expect(refused).toThrow(RequestError)
+    expect(refused).toThrow(expect.objectContaining({ field, outcome: 'notSent' }))
+    expect(refused).toThrow(says)
+  })
+
+  test('more in flight is taken with 4E over UDP, up to what the profile bears', () => {
+    expect(settle({ ...peer, transport: 'udp', profile: 'iq-r', inFlight: 33 }).inFlight).toBe(33)
+    const profileOverrides = { inFlight: { udpBuffer: 4 } }
+    expect(settle({ ...peer, transport: 'udp', profile: 'iq-r', profileOverrides, inFlight: 5 }).inFlight).toBe(5)
+  })
+})
