@@ -91,10 +91,15 @@ function optionsIn(RED: NodeAPI, id: string, given: StoredSettings, texts: Texts
   return optionsOf(settings.profile === '' ? { ...settings, profile: 'generic' } : settings, texts)
 }
 
-/** The running client, when it does what is to be tested: the PLC may have no second entry for a test. */
+/** The running client, when it speaks as is to be tested: the PLC may have no second entry for a test. */
 function connected(connection: Connection | undefined, options: MelsecClientOptions): MelsecClient | undefined {
-  const same = JSON.stringify(connection?.options) === JSON.stringify(options)
-  return same && connection?.current?.state.name === 'connected' ? connection.current : undefined
+  if (connection?.options === undefined || connection.current?.state.name !== 'connected') return undefined
+  return wire(connection.options) === wire(options) ? connection.current : undefined
+}
+
+/** What the PLC sees of a client's options. */
+function wire({ allowWrites, allowControl, gap, format, ...seen }: MelsecClientOptions): string {
+  return JSON.stringify(seen)
 }
 
 async function ask(client: MelsecClient, signal: AbortSignal): Promise<TestResult> {

@@ -38,11 +38,14 @@ const read = (more: object = {}) => readNode(['D100'], { output: 'value', ...mor
 
 async function value(): Promise<unknown> {
   await red.receive('read', {})
-  return (await red.next('read')).payload
+  const { payload } = await red.next('read')
+  expect(await red.completed('read')).not.toHaveProperty('error')
+  return payload
 }
 
 async function caught(): Promise<CaughtError> {
   await red.receive('read', {})
+  expect(await red.completed('read')).toHaveProperty('error')
   return ((await red.next('catch')) as Message & { error: CaughtError }).error
 }
 
@@ -89,6 +92,7 @@ describe('one connection', () => {
       await red.deploy([connectionTo(plc), read({ property })], 'nodes')
       await red.receive('read', {})
       expect(await red.next('read')).toMatchObject({ [property]: 42 })
+      await red.completed('read')
     }
     await red.deploy([connectionTo(plc), read(), writeNode()], 'flows')
     await red.status('write', { fill: 'green' })
@@ -103,6 +107,22 @@ describe('one connection', () => {
     await red.deploy([connectionTo(other), read()], 'nodes')
     expect(await value()).toBe(7)
     await connections(0)
+    await red.deploy([])
+    await other.close()
+  })
+
+  test.each([
+    ['tcp', 'binary'],
+    ['tcp', 'ascii'],
+    ['udp', 'binary'],
+    ['udp', 'ascii'],
+  ] as const)('over %s in %s code', async (transport, code) => {
+    const other = await startPlc({ code })
+    other.write('D100', 8)
+    const port = String(other[transport]?.port)
+    await red.deploy([connectionTo(other, { transport, code, port }), read()])
+    await red.status('read', { fill: 'green' })
+    expect(await value()).toBe(8)
     await red.deploy([])
     await other.close()
   })
@@ -205,10 +225,21 @@ describe('a PLC', () => {
     expect(plc.read('D110')).toBe(5)
   })
 
+  test('that never answers a write does not hold a deploy up, and its outcome is told', async () => {
+    await red.deploy([connectionTo(plc, { allowWrites: true, timeout: '60000' }), writeNode(), catchNode()])
+    await red.status('write', { fill: 'green' })
+    plc.faults.add({ kind: 'drop', commands: ['writeWords', 'writeRandomWords'] })
+    const written = new Promise((resolve) => plc.on('write', resolve))
+    await red.receive('write', { payload: { D110: 6 } })
+    await written
+    await red.deploy([])
+    const { error } = await red.completed('write')
+    expect(error).toMatchObject({ code: 'CLOSED', outcome: 'unknown' })
+  }, 30_000)
+
   test('a deploy ends reads that are under way, without an error', async () => {
     await red.deploy([connectionTo(plc), read(), catchNode()])
     expect(await value()).toBe(42)
-    await red.completed('read')
     plc.faults.add({ kind: 'silence' })
     await red.receive('read', {})
     await red.deploy([connectionTo(plc, { timeout: '1001' }), read(), catchNode()])
@@ -330,6 +361,8 @@ describe('the connection test of the editor', () => {
     await red.status('read', { fill: 'green' })
     const own = connectionTo(taken)
     expect((await run({ id: 'plc', settings: own })).body).toMatchObject({ ok: true, model: 'R08CPU' })
+    const ticked = { ...own, allowWrites: true, gap: '0' }
+    expect((await run({ id: 'plc', settings: ticked })).body).toMatchObject({ ok: true, model: 'R08CPU' })
     expect((await run({ id: 'plc', settings: { ...own, frame: '3E' } })).body).toMatchObject({
       ok: false,
       code: 'ENTRY_BUSY',

@@ -27,7 +27,9 @@ const controllable = () => connectionTo(plc, { allowControl: true })
 
 async function send(id: string, message: Readonly<Record<string, unknown>>): Promise<Message> {
   await red.receive(id, message)
-  return red.next(id)
+  const answer = await red.next(id)
+  expect(await red.completed(id)).not.toHaveProperty('error')
+  return answer
 }
 
 async function caught(
@@ -35,6 +37,7 @@ async function caught(
   message: Readonly<Record<string, unknown>>,
 ): Promise<Message & { error: CaughtError }> {
   await red.receive(id, message)
+  expect(await red.completed(id)).toHaveProperty('error')
   return (await red.next('catch')) as Message & { error: CaughtError }
 }
 
