@@ -60,6 +60,8 @@ export interface TextField extends Documented {
   readonly charset?: Charset
   /** A password: never shown in traces and explanations. */
   readonly secret?: true
+  /** ASCII code: each character as the two digits of its code (1E loopback), not as itself. */
+  readonly digits?: true
 }
 export interface ListField extends Documented {
   readonly kind: 'list'
@@ -155,7 +157,7 @@ export const bytes = <const C extends Count>(count: C, doc?: string) =>
   ({ kind: 'bytes', count, ...(doc ? { doc } : {}) }) as const
 export const text = <const C extends Count>(
   count: C,
-  options: { doc?: string; charset?: Charset; secret?: true } = {},
+  options: { doc?: string; charset?: Charset; secret?: true; digits?: true } = {},
 ) => ({ kind: 'text', count, ...options }) as const
 export const list = <const C extends Count, const S extends Shape>(count: C, item: S, doc?: string) =>
   ({ kind: 'list', count, item, ...(doc ? { doc } : {}) }) as const

@@ -106,7 +106,7 @@ function put(
       writer.bytes(arrayToWrite(field, name, given, message, context) as ArrayLike<number>)
       return
     case 'text':
-      writer.text(textToWrite(field, name, given, message, context))
+      putText(field, textToWrite(field, name, given, message, context), writer)
       return
     case 'list':
       eachToWrite(listToWrite(field, name, given, message, context), (element) => {
@@ -193,6 +193,11 @@ function booleansToWrite(values: ArrayLike<unknown>): ArrayLike<boolean> {
     if (typeof values[i] !== 'boolean') bad(`element ${i} is ${show(values[i])}, must be true or false`)
   }
   return values as ArrayLike<boolean>
+}
+
+function putText(field: Extract<Field, { kind: 'text' }>, text: string, writer: Writer): void {
+  if (field.digits === true) writer.bytes(Array.from(text, (character) => character.charCodeAt(0)))
+  else writer.text(text)
 }
 
 const CHARSETS: Readonly<Record<Exclude<Charset, 'any'>, RegExp>> = { hexDigits: /^[0-9A-F]*$/ }
@@ -347,7 +352,7 @@ function same(a: unknown, b: unknown): boolean {
 }
 
 function readText(field: Extract<Field, { kind: 'text' }>, count: number, reader: Reader): string {
-  const read = reader.text(count)
+  const read = field.digits === true ? reader.bytes(count).toString('latin1') : reader.text(count)
   if (!inCharset(field.charset, read)) reader.fail('BAD_FIELD', 'a character other than 0-9 and A-F')
   return read
 }

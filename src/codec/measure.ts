@@ -45,7 +45,7 @@ function span(field: Field, name: string, known: Measured): number {
     case 'bytes':
       return bulkSize(field.kind, count(field.count), known.ascii)
     case 'text':
-      return count(field.count)
+      return count(field.count) * (field.digits === true ? digits : 1)
     case 'list':
       return spanOfList(field.item, own, count(field.count), known)
     case 'each':

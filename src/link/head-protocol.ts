@@ -10,6 +10,7 @@ import {
   type MessageOf,
   measure,
   type Named,
+  type Reader,
   readerOf,
   writerOf,
 } from '../codec/codec'
@@ -20,6 +21,10 @@ import type { Framing, RequestFrame, ResponseFrame } from './framing'
 /** A command with its name. */
 export type NamedCommand = Named<Declaration, string>
 
+type Bag = Readonly<Record<string, unknown>>
+
+const DUMMY = '0'
+
 /** What makes one protocol of this kind different from another. */
 export interface HeadProtocolParts<Head> {
   readonly framing: Framing<Head>
@@ -29,6 +34,10 @@ export interface HeadProtocolParts<Head> {
   readonly form: number
   readonly headOf: (command: NamedCommand) => Head
   readonly codeOf: (head: Head) => number
+  /** The message as it goes into the frame. @throws RequestError for what must not be sent. */
+  readonly prepare?: (command: NamedCommand, message: Bag) => Bag
+  /** Characters `0` behind a request, or behind the data of its answer, that stand for nothing. */
+  readonly dummies?: (command: NamedCommand, request: Bag, side: 'request' | 'response') => number
   /** The error for an end code other than 0. */
   readonly refusal: (command: NamedCommand, frame: ResponseFrame<Head>) => EndCodeError
 }
@@ -49,12 +58,14 @@ export class HeadProtocol<Head> {
     command: C,
     message: MessageInput<C['request']>,
   ): Exchange<Head, MessageOf<C['response']>> {
-    const { code, form } = this.#parts
+    const { code, form, prepare } = this.#parts
     const writer = writerOf(code, form)
-    encode<C['request']>(command.request, message, writer)
-    const body = writer.take()
+    if (prepare === undefined) encode<C['request']>(command.request, message, writer)
+    else encode(command.request, prepare(command, message), writer)
+    const data = writer.take()
     // What was sent counts, not an object that the caller may change before the answer comes.
-    const context: Context = { shape: command.request, message: decode(command.request, readerOf(code, body, form)) }
+    const context: Context = { shape: command.request, message: decode(command.request, readerOf(code, data, form)) }
+    const body = this.#withDummies(data, command, context.message, 'request')
     return {
       title: command.title,
       effect: command.effect,
@@ -64,7 +75,8 @@ export class HeadProtocol<Head> {
       answered: command.answered !== 'no',
       responseLength: (head) => {
         this.#checkCommand(command, head)
-        return measure(command.response, { ascii: code === 'ascii', form, context })
+        const length = measure(command.response, { ascii: code === 'ascii', form, context })
+        return length + this.#dummies(command, context.message, 'response')
       },
       decode: (frame) => this.#decode(command, context, frame),
     }
@@ -85,16 +97,31 @@ export class HeadProtocol<Head> {
     if (frame.endCode !== 0) throw this.#parts.refusal(command, frame)
     const reader = readerOf(this.#parts.code, frame.body, this.#parts.form)
     const message = decode<C['response']>(command.response, reader, context)
-    reader.end()
+    this.#endOf(reader, this.#dummies(command, context.message, 'response'))
     return message
+  }
+
+  #dummies(command: NamedCommand, request: Bag, side: 'request' | 'response'): number {
+    return this.#parts.dummies?.(command, request, side) ?? 0
+  }
+
+  #withDummies(data: Buffer, command: NamedCommand, request: Bag, side: 'request' | 'response'): Buffer {
+    const count = this.#dummies(command, request, side)
+    return count === 0 ? data : Buffer.concat([data, Buffer.from(DUMMY.repeat(count), 'latin1')])
+  }
+
+  #endOf(reader: Reader, dummies: number): void {
+    if (reader.text(dummies) !== DUMMY.repeat(dummies)) reader.fail('BAD_FIELD', `the dummy character is no ${DUMMY}`)
+    reader.end()
   }
 
   /** Length of a request's body, for the responder: the declaration tells where it ends. */
   requestLength(head: Head, soFar: Buffer): number | undefined {
     const reader = readerOf(this.#parts.code, soFar, this.#parts.form)
     try {
-      decode(this.#commandOf(head).request, reader)
-      return reader.position
+      const command = this.#commandOf(head)
+      const message = decode(command.request, reader)
+      return reader.position + this.#dummies(command, message, 'request')
     } catch (error) {
       if (error instanceof ProtocolError && error.code === 'TRUNCATED') return undefined
       throw error
@@ -106,7 +133,7 @@ export class HeadProtocol<Head> {
     const command = this.#commandOf(frame.head)
     const reader = readerOf(this.#parts.code, frame.body, this.#parts.form)
     const message = decode(command.request, reader)
-    reader.end()
+    this.#endOf(reader, this.#dummies(command, message, 'request'))
     return { command, message }
   }
 
@@ -118,7 +145,7 @@ export class HeadProtocol<Head> {
   ): Buffer {
     const writer = writerOf(this.#parts.code, this.#parts.form)
     encode(command.response, response, writer, { shape: command.request, message })
-    return writer.take()
+    return this.#withDummies(writer.take(), command, message, 'response')
   }
 
   #commandOf(head: Head): NamedCommand {

@@ -3,11 +3,17 @@ import { annotate, type Leaf } from '../codec/annotate'
 import { type DataCode, type Declaration, field, type Named, type Shape } from '../codec/codec'
 import { type Direction, Explainer, type FrameExplanation } from '../codec/explanation'
 import { aCompatibleCommands } from './a-compatible'
+import { aCompatibleDevice } from './a-compatible-device'
+import { aCompatibleFamilies, fromFrame } from './a-compatible-rules'
+import { pcTypeCodes } from './a-compatible-type'
+import { formatDevice } from './address'
+import type { DeviceAddress } from './device'
 import { FORM_XY_OCTAL } from './device-codec'
 import type { Settings } from './explain-body'
 import type { ExplainFrameOptions, Known } from './explain-frame'
 import { commandText, describeHead, endCodeText } from './explain-head'
 import { describeValue, devicesOf, splitRow, summaryOf } from './explain-values'
+import { WITH_ABNORMAL_CODE } from './frame-1e'
 
 const { u16, u8 } = field
 
@@ -65,6 +71,7 @@ function explainRequest(explainer: Explainer, settings: Settings, total: number)
   const about = { frame: '1E', code, direction: 'request' } as const
   if (command === undefined) return explainUnknown(explainer, nameOf('request', code), about, total)
   const message = readData(explainer, settings, command.request, command)
+  if (command.name === 'writeBits') takeDummy(explainer, code, message)
   const title = [command.title, summaryOf(command, message, settings)].filter((part) => part !== '').join(', ')
   return end(explainer, { ...about, title: `${nameOf('request', code)}: ${title}`, command: command.name }, total)
 }
@@ -100,11 +107,40 @@ function readData(explainer: Explainer, settings: Settings, shape: Shape, comman
   const context = request === undefined ? {} : { context: { shape: command.request, message: request } }
   return explainer.read(
     shape,
-    (leaf) => describeValue(leaf, settings),
+    (leaf) => describeData(leaf, settings),
     { form: formOf(settings), ...context },
     (row, bytes, message) =>
       splitRow(row, bytes, settings, devicesOf(row.name, { shape, message, ...context }, settings)),
   )
+}
+
+function describeData(leaf: Leaf, settings: Settings): string | undefined {
+  const { field: of, value } = leaf
+  if (of === aCompatibleCommands.readPcType.response.typeCode && typeof value === 'number') {
+    return `${value.toString(16).toUpperCase()}H (${pcTypeCodes.get(value)?.join(' or ') ?? 'not a type code of the manual'})`
+  }
+  const text = describeValue(leaf, settings)
+  if (of.kind !== 'value' || of.codec !== aCompatibleDevice) return text
+  const address = value as DeviceAddress
+  const real = fromFrame(aCompatibleFamilies['iq-f'].windows, address)
+  return real === undefined || real.device === address.device
+    ? text
+    : `${text}, on iQ-F ${formatDevice(real, settings)}`
+}
+
+/** Some PLCs put a dummy character behind an odd number of bits (FX3U-ENET-ADP user's manual 7.5). */
+function takeDummy(explainer: Explainer, code: DataCode, { values }: Bag): void {
+  const odd = Array.isArray(values) && values.length % 2 === 1
+  if (code !== 'ascii' || !odd || explainer.fault !== undefined || explainer.remaining !== 1) return
+  explainer.take(1, { name: 'dummy', kind: 'text', text: 'dummy behind an odd number of bits' })
+}
+
+function explainAbnormalCode(explainer: Explainer): void {
+  if (explainer.remaining === 0) return
+  explainer.read({ abnormalCode: u8() }, ({ value }) => endCodeText(Number(value), 2).replace(' (refused)', ':'))
+  if (explainer.fault === undefined && explainer.remaining > 0) {
+    explainer.read({ reserved: u8() }, () => 'fixed, of some PLCs')
+  }
 }
 
 function explainResponse(
@@ -132,8 +168,7 @@ function explainResponse(
   }
   const name = nameOf('response', code)
   if (head.endCode !== 0) {
-    // What follows some end codes is one byte, the abnormal code.
-    if (explainer.remaining > 0) explainer.read({ abnormalCode: u8() }, () => undefined)
+    if (head.endCode === WITH_ABNORMAL_CODE) explainAbnormalCode(explainer)
     return explainer.end({ ...about, title: `${name}: refused` }, total)
   }
   if (asked === undefined) {
@@ -141,7 +176,8 @@ function explainResponse(
     explainer.take(explainer.remaining, { name: 'data', kind: 'bytes', text: 'data without its request' })
     return explainer.end({ ...about, title: name }, total)
   }
-  readData(explainer, settings, asked.command.response, asked.command, asked.message)
+  const message = readData(explainer, settings, asked.command.response, asked.command, asked.message)
+  if (asked.command.name === 'readBits') takeDummy(explainer, code, message)
   const summary = summaryOf(asked.command, asked.message, settings)
   const title = [asked.command.title, summary].filter((part) => part !== '').join(', ')
   return end(explainer, { ...about, title: `${name}: ${title}`, command: asked.command.name }, total)

@@ -14,10 +14,13 @@ export interface Head1e {
 
 const ANSWER = 0x80
 /** End code that is followed by an abnormal code. */
-const WITH_ABNORMAL_CODE = 0x5b
+export const WITH_ABNORMAL_CODE = 0x5b
 
-/** Framing of 1E in either data code. */
-export function frame1e(code: DataCode): Framing<Head1e> {
+/**
+ * Framing of 1E in either data code.
+ * @param abnormalCodeLength bytes behind end code 5B: the FX5 manual does not say how many (FX3U-ENET-ADP: 2)
+ */
+export function frame1e(code: DataCode, abnormalCodeLength: 1 | 2 = 1): Framing<Head1e> {
   const ascii = code === 'ascii'
   return {
     name: `1E ${code}`,
@@ -28,7 +31,7 @@ export function frame1e(code: DataCode): Framing<Head1e> {
     },
     response: {
       write: (head, _serial, endCode, body) => writeResponse(ascii, head, endCode, body),
-      scan: (bytes, bodyLength) => scanResponse(ascii, bytes, bodyLength),
+      scan: (bytes, bodyLength) => scanResponse(ascii, abnormalCodeLength, bytes, bodyLength),
     },
     mismatch: (asked, answered) =>
       asked.command === answered.command ? undefined : `it answers command ${answered.command}, asked ${asked.command}`,
@@ -75,6 +78,7 @@ function scanRequest(
 
 function scanResponse(
   ascii: boolean,
+  abnormalCodeLength: number,
   bytes: Buffer,
   bodyLength: BodyLength<Head1e>,
 ): Scanned<ResponseFrame<Head1e>> | undefined {
@@ -85,13 +89,14 @@ function scanResponse(
   if (bytes.length < 2 * unit) return undefined
   const endCode = uintAt(bytes, unit, 1, ascii)
   const head = { command: subheader - ANSWER, pc: 0, timer: 0 }
-  const length = answerLength(endCode, unit, () => bodyLength(head, bytes.subarray(2 * unit)))
+  const abnormal = abnormalCodeLength * unit
+  const length = answerLength(endCode, abnormal, () => bodyLength(head, bytes.subarray(2 * unit)))
   const used = 2 * unit + (length ?? 0)
   if (length === undefined || bytes.length < used) return undefined
   return { used, frame: { head, serial: undefined, endCode, body: bytes.subarray(2 * unit, used) } }
 }
 
-function answerLength(endCode: number, unit: number, ofData: () => number | undefined): number | undefined {
+function answerLength(endCode: number, abnormal: number, ofData: () => number | undefined): number | undefined {
   if (endCode === 0) return ofData()
-  return endCode === WITH_ABNORMAL_CODE ? unit : 0
+  return endCode === WITH_ABNORMAL_CODE ? abnormal : 0
 }

@@ -145,7 +145,7 @@ describe.each(['whole', 'byte by byte'] as const)('MC 4C format 5, %s', (wire) =
 })
 
 describe.each(wires)('1E, %s', (wire) => {
-  /** A PLC that knows batch read in word units: D[n] = n. */
+  /** A PLC that knows batch read: D[n] = n, and the odd M are on. */
   const plcOf = (
     mc: ReturnType<typeof aCompatibleProtocol>,
     refuse?: Answer,
@@ -154,7 +154,8 @@ describe.each(wires)('1E, %s', (wire) => {
     answer(frame) {
       const { command, message } = mc.readRequest(frame)
       const { head, points } = message as { head: { number: number }; points: number }
-      const values = Array.from({ length: points }, (_, i) => head.number + i)
+      const numbers = Array.from({ length: points }, (_, i) => head.number + i)
+      const values = command.name === 'readBits' ? numbers.map((n) => n % 2 === 1) : numbers
       return refuse ?? { endCode: 0, body: mc.writeResponse(command, message, { values }) }
     },
   })
@@ -180,8 +181,9 @@ describe.each(wires)('1E, %s', (wire) => {
 
     test('256 points are written as 00', () => {
       const line = new Line(mc.framing, plcOf(mc), wire)
-      const { values } = line.ask(readWords(1000, 256))
-      expect([values.length, values[0], values[255]]).toEqual([256, 1000, 1255])
+      const head = { device: 'M', number: 1000 } as const
+      const { values } = line.ask(mc.exchange(aCompatibleCommands.readBits, { head, points: 256 }))
+      expect([values.length, values[0], values[255]]).toEqual([256, false, true])
       const points = (line.sent[0] as Buffer).subarray(code === 'binary' ? 10 : 20)
       expect(code === 'binary' ? points.toString('hex') : points.toString('latin1')).toBe('0000')
     })
