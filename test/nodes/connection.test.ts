@@ -148,7 +148,7 @@ describe('one connection', () => {
 
 test('50 deploys of every kind leave no connection, socket, timer or listener', async () => {
   const flow = (round: number): FlowNode[] => [
-    connectionTo(plc, { timeout: String(1000 + (round % 3)) }),
+    connectionTo(plc, { timeout: String(8000 + (round % 3)) }),
     read({ name: `round ${round}` }),
     writeNode({ name: `round ${round}` }),
     controlNode(),
@@ -186,7 +186,7 @@ describe('a PLC', () => {
 
   test('that is silent is an error with ranked causes, and shown', async () => {
     plc.faults.add({ kind: 'silence' })
-    await red.deploy([connectionTo(plc), read(), catchNode()])
+    await red.deploy([connectionTo(plc, { timeout: '1000' }), read(), catchNode()])
     const { code, cause } = await caught()
     expect(['SILENT', 'TIMEOUT', 'OFFLINE']).toContain(code)
     expect(cause.causes).toEqual(expect.arrayContaining([expect.stringContaining('ASCII')]))
@@ -215,12 +215,12 @@ describe('a PLC', () => {
   test('a deploy waits for a write that is under way', async () => {
     plc.faults.add({ kind: 'delay', ms: 300, commands: ['writeWords', 'writeRandomWords'] })
     const flow = (timeout: string) => [connectionTo(plc, { allowWrites: true, timeout }), writeNode(), catchNode()]
-    await red.deploy(flow('1000'))
+    await red.deploy(flow('8000'))
     await red.status('write', { fill: 'green' })
     const written = new Promise((resolve) => plc.on('write', resolve))
     await red.receive('write', { payload: { D110: 5 } })
     await written
-    await red.deploy(flow('1001'))
+    await red.deploy(flow('8001'))
     expect(await red.completed('write')).not.toHaveProperty('error')
     expect(plc.read('D110')).toBe(5)
   })
@@ -242,7 +242,7 @@ describe('a PLC', () => {
     expect(await value()).toBe(42)
     plc.faults.add({ kind: 'silence' })
     await red.receive('read', {})
-    await red.deploy([connectionTo(plc, { timeout: '1001' }), read(), catchNode()])
+    await red.deploy([connectionTo(plc, { timeout: '8001' }), read(), catchNode()])
     expect(await red.completed('read')).not.toHaveProperty('error')
     expect(red.pending('catch')).toEqual([])
   })

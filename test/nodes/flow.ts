@@ -24,7 +24,8 @@ export function connectionTo(plc: PlcSimulator, more: Settings = {}): FlowNode {
     host: '127.0.0.1',
     port: portOf(plc),
     profile: plc.profile.id,
-    timeout: '1000',
+    // Long enough for a busy machine; tests of silence take a shorter one.
+    timeout: '8000',
     ...more,
   }
 }

@@ -168,7 +168,7 @@ describe('quality', () => {
   })
 
   test('is bad for everything while the PLC is silent, and the message is sent all the same', async () => {
-    await red.deploy([connectionTo(plc), readNode(TANK, { quality: true })])
+    await red.deploy([connectionTo(plc, { timeout: '1000' }), readNode(TANK, { quality: true })])
     await ask()
     plc.faults.add({ kind: 'silence' })
     const { payload } = await ask()

@@ -153,7 +153,7 @@ describe('writing', () => {
       writes += 1
     })
     plc.faults.add({ kind: 'drop', commands: ['writeWords', 'writeRandomWords'] })
-    await red.deploy([writable(), writeNode(), catchNode()])
+    await red.deploy([connectionTo(plc, { allowWrites: true, timeout: '1000' }), writeNode(), catchNode()])
     const { error } = await caught('write', { payload: { D114: 3 } })
     expect(error.cause).toMatchObject({ outcome: 'unknown' })
     expect(error.cause.items).toMatchObject([{ name: 'D114', written: false, outcome: 'unknown' }])
