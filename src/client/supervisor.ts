@@ -51,7 +51,7 @@ export class Supervisor {
     return this.#nextAttempt
   }
 
-  /** Whether a request may wait for the connection: as long as no attempt has failed since the last good connection. */
+  /** Whether a request may wait for the connection: as long as no attempt has failed since one that was of use. */
   get hopeful(): boolean {
     if (this.#name === 'waiting') return this.#attempt === 0
     return this.#name === 'idle' || (this.#name === 'connecting' && this.#attempt <= 1)
@@ -89,13 +89,14 @@ export class Supervisor {
   /** The attempt failed, or the connection is gone or was dropped. */
   lost(error: PlcError, now: number, pauseAtLeast = 0): void {
     if (this.#name === 'closed') return
-    const wasGood = this.#name === 'connected'
-    // A connection that breaks again and again right after it was made must not become a storm of connects: as long as
-    // nothing came of it, the pauses go on growing.
-    if (wasGood && now - this.#connectedAt < STABLE) this.#attempt = this.#useful ? 1 : Math.max(1, this.#attemptsSpent)
+    const shortLived = this.#name === 'connected' && now - this.#connectedAt < STABLE
+    // A connection that breaks again and again right after it was made must not become a storm of connects: there is at
+    // least the first pause, and as long as nothing comes of the connections the pauses go on growing.
+    if (shortLived && !this.#useful) this.#attempt = Math.max(1, this.#attemptsSpent)
     this.#name = 'waiting'
     this.#error = error
-    this.#nextAttempt = now + Math.max(pauseAtLeast, this.#pause())
+    const failures = shortLived ? Math.max(1, this.#attempt) : this.#attempt
+    this.#nextAttempt = now + Math.max(pauseAtLeast, this.#pause(failures))
   }
 
   close(): void {
@@ -109,10 +110,10 @@ export class Supervisor {
     this.#nextAttempt = undefined
   }
 
-  #pause(): number {
+  #pause(failures: number): number {
     const { first, longest, settleGap, random } = this.#options
-    if (this.#attempt === 0) return settleGap
-    const backOff = Math.min(longest, first * 2 ** Math.min(this.#attempt - 1, 30))
+    if (failures === 0) return settleGap
+    const backOff = Math.min(longest, first * 2 ** Math.min(failures - 1, 30))
     return Math.max(settleGap, backOff * (0.5 + random() / 2))
   }
 }

@@ -122,8 +122,17 @@ describe('a connection that was lost', () => {
     expect(flapping(8, false)).toEqual([250, 500, 1000, 2000, 4000, 8000, 15_000, 15_000])
   })
 
-  test('again and again, but having answered requests, keeps the first pause', () => {
+  test('again and again, but having answered requests, keeps the first pause, and requests wait for it', () => {
     expect(flapping(4, true)).toEqual([250, 250, 250, 250])
+    const found = supervisor()
+    found.want()
+    found.connected(0)
+    found.proved()
+    found.lost(reason, 1)
+    expect([found.attempt, found.hopeful, found.nextAttempt]).toEqual([0, true, 251])
+    expect([found.timeout(251), found.hopeful]).toEqual([true, true])
+    found.lost(reason, 252)
+    expect(found.hopeful).toBe(false)
   })
 })
 
