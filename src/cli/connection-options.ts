@@ -1,0 +1,260 @@
+// The options that say which PLC, the same for every command that talks to one.
+import { Argument, type Command, InvalidArgumentError, Option } from 'commander'
+import {
+  createMelsecClient,
+  type FrameName,
+  type MelsecClient,
+  type MelsecClientOptions,
+  moduleIoNumbers,
+  type ProfileId,
+  profileIds,
+  RequestError,
+  type ValueFormat,
+} from '../index'
+import type { Terminal } from './terminal'
+
+/** The options as commander gives them. */
+export interface ConnectionOptions {
+  readonly plc?: string
+  readonly host?: string
+  readonly port?: number
+  readonly udp?: boolean
+  readonly profile?: ProfileId
+  readonly frame?: FrameName
+  readonly ascii?: boolean
+  readonly asciiXy?: 'octal' | 'hexadecimal'
+  readonly asciiZr?: 'decimal' | 'hexadecimal'
+  readonly xyRadix?: 8 | 16
+  readonly network?: number
+  readonly station?: number
+  readonly moduleIo?: number
+  readonly multidrop?: number
+  readonly monitoringTimer?: number
+  readonly localAddress?: string
+  readonly localPort?: number
+  readonly timeout: number
+  readonly connectTimeout: number
+  readonly trace?: boolean
+  readonly json?: boolean
+}
+
+/** The options that say how words become values. */
+export interface FormatOptions {
+  readonly wordOrder?: NonNullable<ValueFormat['wordOrder']>
+  readonly byteOrder?: NonNullable<ValueFormat['byteOrder']>
+  readonly encoding?: NonNullable<ValueFormat['encoding']>
+}
+
+const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullable<ValueFormat['wordOrder']>[]
+const ENCODINGS = ['ascii', 'utf8', 'shift-jis', 'utf16'] as const satisfies readonly NonNullable<
+  ValueFormat['encoding']
+>[]
+const FRAMES = ['3E', '4E'] as const satisfies readonly FrameName[]
+
+/** A whole number of an option. */
+export function whole(min: number, max: number): (text: string) => number {
+  return (text) => {
+    const value = /^\d+$/.test(text) ? Number(text) : Number.NaN
+    if (value >= min && value <= max) return value
+    throw new InvalidArgumentError(`It is a whole number from ${min} to ${max}.`)
+  }
+}
+
+/** A choice that is taken in upper and lower case. */
+export function choice<T extends string>(flags: string, description: string, values: readonly T[]): Option {
+  return new Option(flags, description).choices(values).argParser(oneOf(values))
+}
+
+/** As `choice`, for an argument. */
+export function choiceArgument<T extends string>(name: string, description: string, values: readonly T[]): Argument {
+  return new Argument(name, description).choices(values).argParser(oneOf(values))
+}
+
+function oneOf<T extends string>(values: readonly T[]): (text: string) => T {
+  return (text) => {
+    const found = values.find((value) => value.toLowerCase() === text.toLowerCase())
+    if (found !== undefined) return found
+    throw new InvalidArgumentError(`Choose one of ${values.join(', ')}.`)
+  }
+}
+
+export const jsonOption = () => new Option('--json', 'print one JSON document instead of text')
+export const profileOption = () => choice('--profile <id>', 'family of the PLC', profileIds)
+
+/** Options of data code, also of a simulated PLC. */
+export function addCodeOptions(command: Command): Command {
+  return addDigitOptions(command.addOption(new Option('--ascii', 'communication data code ASCII; without it binary')))
+}
+
+/** Options of the digits in ASCII code. */
+export function addDigitOptions(command: Command): Command {
+  return command
+    .addOption(
+      choice('--ascii-xy <digits>', 'ASCII code on iQ-F: as the port is set, "X,Y OCT" or "X,Y HEX"', [
+        'octal',
+        'hexadecimal',
+      ]),
+    )
+    .addOption(choice('--ascii-zr <digits>', 'ASCII code: digits of ZR', ['decimal', 'hexadecimal']))
+}
+
+export const frameOption = (description: string) => choice('--frame <name>', description, FRAMES)
+
+/** Adds the options that say which PLC. */
+export function addConnectionOptions(command: Command): Command {
+  command
+    .optionsGroup('Which PLC:')
+    .addOption(
+      new Option('--plc <host:port>', 'address and port of the PLC, e.g. 192.168.3.39:5010').env('MELSEC_JW_PLC'),
+    )
+    .addOption(new Option('--host <host>', 'address of the PLC'))
+    .addOption(
+      new Option('--port <number>', 'port of an SLMP (MC protocol) entry of the PLC, decimal').argParser(
+        whole(1, 65535),
+      ),
+    )
+    .addOption(new Option('--udp', 'UDP; without it TCP'))
+    .addOption(profileOption().default('generic'))
+    .addOption(frameOption("frame; default: the profile's"))
+  addCodeOptions(command)
+  return command
+    .addOption(
+      new Option(
+        '--xy-radix <8|16>',
+        "X and Y are written in octal (8) or hexadecimal (16); default: the profile's",
+      ).argParser(radix),
+    )
+    .optionsGroup('Another station or CPU:')
+    .addOption(new Option('--network <number>', 'another network').argParser(whole(0, 255)))
+    .addOption(new Option('--station <number>', 'another station of that network').argParser(whole(0, 255)))
+    .addOption(
+      new Option(
+        '--module-io <number>',
+        `another CPU: hexadecimal, or ${moduleIoNumbers.map(({ name }) => name).join(', ')}`,
+      ).argParser(moduleIo),
+    )
+    .addOption(new Option('--multidrop <number>', 'station behind a serial module').argParser(whole(0, 31)))
+    .optionsGroup('Times and ports:')
+    .addOption(
+      new Option('--monitoring-timer <ms>', 'time the PLC gives a request; 0 = for ever').argParser(
+        whole(0, 16_383_750),
+      ),
+    )
+    .addOption(new Option('--local-address <address>', 'address of the network interface to use'))
+    .addOption(
+      new Option('--local-port <number>', "fixed port of this computer, when the PLC's entry names one").argParser(
+        whole(1, 65535),
+      ),
+    )
+    .addOption(new Option('--timeout <ms>', 'time for an answer').default(3000).argParser(whole(1, 3_600_000)))
+    .addOption(
+      new Option('--connect-timeout <ms>', 'time for the connection').default(5000).argParser(whole(1, 3_600_000)),
+    )
+    .optionsGroup('Output:')
+    .addOption(new Option('--trace', 'show every frame, explained, on the error output'))
+    .addOption(jsonOption())
+}
+
+/** Adds the options that say how words become values. */
+export function addFormatOptions(command: Command): Command {
+  return command
+    .optionsGroup('Values:')
+    .addOption(choice('--word-order <order>', 'order of the words of a value', ORDERS))
+    .addOption(choice('--byte-order <order>', 'order of the bytes of a word', ORDERS))
+    .addOption(choice('--encoding <name>', 'encoding of STRING', ENCODINGS))
+}
+
+function radix(text: string): 8 | 16 {
+  if (text === '8' || text === '16') return text === '8' ? 8 : 16
+  throw new InvalidArgumentError('It is 8 (octal) or 16 (hexadecimal).')
+}
+
+function moduleIo(text: string): number {
+  const named = moduleIoNumbers.find(({ name }) => name.toLowerCase() === text.toLowerCase())
+  if (named !== undefined) return named.number
+  if (/^(0x)?[0-9a-f]{1,4}h?$/i.test(text)) return Number.parseInt(text.replace(/^0x/i, ''), 16)
+  throw new InvalidArgumentError('It is a hexadecimal number such as 3E1, or a name.')
+}
+
+/** Address and port; only both together say which PLC. */
+export function peerOf({ plc, host, port }: ConnectionOptions): { readonly host: string; readonly port: number } {
+  const given = plc === undefined ? {} : splitPeer(plc)
+  const found = { host: host ?? given.host, port: port ?? given.port }
+  if (found.host === undefined || found.host === '') {
+    throw new RequestError('BAD_OPTION', 'Which PLC? Give its address and port, e.g. --plc 192.168.3.39:5010.', 'host')
+  }
+  if (found.port === undefined) {
+    throw new RequestError(
+      'BAD_OPTION',
+      `Which port of ${found.host}? Give the port of its SLMP (MC protocol) entry, e.g. --plc ${found.host}:5010.`,
+      'port',
+    )
+  }
+  return { host: found.host, port: found.port }
+}
+
+/** `host`, `host:port`, `[IPv6]:port`, IPv6. */
+function splitPeer(text: string): { readonly host?: string; readonly port?: number } {
+  const [, bracketed, plain, digits] = /^(?:\[([^\]]*)\]|([^:]*))(?::(\d+))?$/.exec(text.trim()) ?? []
+  const host = bracketed ?? plain ?? text.trim()
+  if (digits === undefined) return { host }
+  const port = Number(digits)
+  if (port >= 1 && port <= 65535) return { host, port }
+  throw new RequestError('BAD_OPTION', `${digits} is not a port: 1 to 65535.`, 'port')
+}
+
+/** The client's options; `allow` is what the command itself needs. */
+export function clientOptions(
+  options: ConnectionOptions & FormatOptions,
+  allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'> = {},
+): MelsecClientOptions {
+  const { profile, frame, ascii, asciiXy, asciiZr, xyRadix, monitoringTimer, localAddress, localPort } = options
+  const { network, station, moduleIo: module, multidrop, wordOrder, byteOrder, encoding } = options
+  return {
+    ...peerOf(options),
+    transport: options.udp === true ? 'udp' : 'tcp',
+    code: ascii === true ? 'ascii' : 'binary',
+    timeout: options.timeout,
+    connectTimeout: options.connectTimeout,
+    route: given({ network, station, moduleIo: module, multidrop }),
+    format: given({ wordOrder, byteOrder, encoding }),
+    ...given({ profile, frame, asciiXy, asciiZr, xyRadix, monitoringTimer, localAddress, localPort }),
+    ...allow,
+  }
+}
+
+type Given<T> = { [K in keyof T]?: Exclude<T[K], undefined> }
+
+/** Without the options that were not given. */
+function given<T extends object>(options: T): Given<T> {
+  const entries = Object.entries(options).filter(([, value]) => value !== undefined)
+  return Object.fromEntries(entries) as Given<T>
+}
+
+/** e.g. `tcp 192.168.3.39:5010` */
+export function peerText(options: ConnectionOptions): string {
+  const { host, port } = peerOf(options)
+  return `${options.udp === true ? 'udp' : 'tcp'} ${host.includes(':') ? `[${host}]` : host}:${port}`
+}
+
+/** Connects, does `work`, and closes whatever happens. */
+export async function withClient<T>(
+  terminal: Terminal,
+  options: ConnectionOptions & FormatOptions,
+  allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'>,
+  work: (client: MelsecClient) => Promise<T>,
+): Promise<T> {
+  const client = createMelsecClient(clientOptions(options, allow))
+  if (options.trace === true) {
+    client.on('trace', ({ time, direction, text }) => {
+      terminal.error(`${new Date(time).toISOString()} ${direction}\n${text}\n`)
+    })
+  }
+  try {
+    // A deadline of its own: it holds the attempt and the answer that proves the connection, and says why it failed.
+    await client.connect({ timeout: options.connectTimeout + options.timeout })
+    return await work(client)
+  } finally {
+    await client.close()
+  }
+}

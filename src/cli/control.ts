@@ -1,0 +1,113 @@
+import { type ClearMode, type MelsecClient, RequestError } from '../index'
+import { type MakeCommand, newCommand, perform } from './command'
+import { addConnectionOptions, type ConnectionOptions, choice, peerText, withClient } from './connection-options'
+import { exitCodes } from './exit-code'
+import { json } from './output'
+import { refusalOf, type Terminal } from './terminal'
+
+const examples = [
+  'control stop --plc 192.168.3.39:5010 --profile iq-r',
+  'control run --plc 192.168.3.39:5010 --profile iq-r --yes',
+  'control run --plc 192.168.3.39:5010 --profile iq-r --force --clear all',
+]
+
+interface ControlOptions extends ConnectionOptions {
+  readonly yes?: boolean
+  readonly force?: boolean
+  readonly clear?: ClearMode
+}
+
+interface Action {
+  readonly title: string
+  /** What it does to the plant. */
+  readonly effect: string
+  readonly takes: readonly ('force' | 'clear')[]
+  readonly done: string
+  run(client: MelsecClient, options: ControlOptions): Promise<void>
+}
+
+const CLEAR_MODES = ['keep', 'exceptLatched', 'all'] as const satisfies readonly ClearMode[]
+
+/** What can be asked of the CPU. */
+const ACTIONS: Readonly<Record<string, Action>> = {
+  run: {
+    title: 'Remote RUN',
+    effect: 'the CPU executes its program: the machine may move',
+    takes: ['force', 'clear'],
+    done: 'Carried out. With its switch at STOP the CPU stays in STOP.',
+    run: ({ control }, { force, clear }) =>
+      control.run({ ...(force === undefined ? {} : { force }), ...(clear === undefined ? {} : { clear }) }),
+  },
+  stop: {
+    title: 'Remote STOP',
+    effect: 'the CPU stops its program, and its outputs go OFF',
+    takes: [],
+    done: 'Carried out.',
+    run: ({ control }) => control.stop(),
+  },
+  pause: {
+    title: 'Remote PAUSE',
+    effect: 'the CPU stops its program, and its outputs stay as they are',
+    takes: ['force'],
+    done: 'Carried out.',
+    run: ({ control }, { force }) => control.pause(force === undefined ? {} : { force }),
+  },
+  'latch-clear': {
+    title: 'Remote latch clear',
+    effect: 'the latched devices are cleared; the CPU must be in STOP',
+    takes: [],
+    done: 'Carried out.',
+    run: ({ control }) => control.latchClear(),
+  },
+  reset: {
+    title: 'Remote RESET',
+    effect: 'the CPU starts again; it must be in STOP, and its parameters must permit it',
+    takes: [],
+    done: 'Sent. A CPU that resets does not answer, and drops its connections.',
+    run: ({ control }) => control.reset(),
+  },
+}
+
+/** `melsec-jw control` */
+export const controlCommand: MakeCommand = (run) => {
+  const list = Object.entries(ACTIONS).map(([name, { title, effect }]) => `  ${name.padEnd(12)} ${title}: ${effect}`)
+  const command = newCommand('control', 'remote RUN, STOP, PAUSE, latch clear, reset (asks before)', examples)
+    .description('Remote control of the CPU, after asking. It is never repeated by itself.')
+    .argument('<action>', `one of ${Object.keys(ACTIONS).join(', ')}`)
+    .optionsGroup('Control:')
+    .option('-y, --yes', 'do not ask')
+    .option('--force', 'run and pause: also when another device has stopped or paused the CPU')
+    .addOption(choice('--clear <what>', 'run: devices that are cleared before', CLEAR_MODES))
+  addConnectionOptions(command).addHelpText('after', `\nActions:\n${list.join('\n')}`)
+  return command.action((name: string, options: ControlOptions) =>
+    perform(run, options, () => control(run.terminal, name, options)),
+  )
+}
+
+async function control(terminal: Terminal, name: string, options: ControlOptions): Promise<number> {
+  const action = actionOf(name, options)
+  const question = `${action.title} of ${peerText(options)}: ${action.effect}.`
+  const refusal = await refusalOf(terminal, options.yes === true, question)
+  if (refusal !== undefined) throw new RequestError('NOT_PERMITTED', `Nothing was sent. ${refusal}`, '--yes')
+  await withClient(terminal, options, { allowControl: true }, (client) => action.run(client, options))
+  if (options.json === true) terminal.out(json({ plc: peerText(options), action: name, ok: true }))
+  else terminal.out(`${action.title}: ${action.done}`)
+  return exitCodes.ok.code
+}
+
+function actionOf(name: string, options: ControlOptions): Action {
+  const action = Object.hasOwn(ACTIONS, name) ? ACTIONS[name] : undefined
+  if (action === undefined) {
+    throw new RequestError(
+      'BAD_OPTION',
+      `There is no ${JSON.stringify(name)}: choose ${Object.keys(ACTIONS).join(', ')}.`,
+      'action',
+    )
+  }
+  for (const option of ['force', 'clear'] as const) {
+    if (options[option] !== undefined && !action.takes.includes(option)) {
+      throw new RequestError('BAD_OPTION', `${action.title} takes no --${option}.`, option)
+    }
+  }
+  return action
+}

@@ -1,0 +1,96 @@
+import { type DataCode, explainFrame, formatExplanation, type ProfileId } from '../index'
+import { bytesOfHex, bytesOfText } from './bytes'
+import { type MakeCommand, newCommand, perform } from './command'
+import { addDigitOptions, choice, jsonOption, profileOption } from './connection-options'
+import { exitCodes } from './exit-code'
+import { json } from './output'
+import type { Terminal } from './terminal'
+
+const examples = [
+  'decode 500000FFFF03000C00100001040000640000A80100',
+  'decode D00000FFFF0300040000002A00 --request 500000FFFF03000C00100001040000640000A80100',
+  "decode --text '500000FF03FF000018001004010000D*0001000001'",
+  'decode --frame 1E 01FF0A00640000002044 0300',
+  'decode -            (reads the digits from the standard input)',
+]
+
+type ExplainOptions = NonNullable<Parameters<typeof explainFrame>[1]>
+type Explanation = ReturnType<typeof explainFrame>
+
+interface DecodeOptions extends Pick<ExplainOptions, 'frame' | 'asciiXy' | 'asciiZr'> {
+  readonly request?: string
+  readonly registration?: string
+  readonly text?: boolean
+  readonly code?: DataCode
+  readonly profile: ProfileId
+  readonly json?: boolean
+}
+
+const FRAMES = ['3E', '4E', '1E', '4C'] as const satisfies readonly ExplainOptions['frame'][]
+
+/** `melsec-jw decode` */
+export const decodeCommand: MakeCommand = (run) => {
+  const command = newCommand('decode', 'explain a captured frame, field by field', examples)
+    .description(
+      'Explain a captured frame field by field: a request or a response, in 3E or 4E (told by the frame itself), 1E or ' +
+        '4C format 5 (to be said). What the values of a response mean is in its request: give that too.',
+    )
+    .argument('<hex...>', 'bytes of the frame as hexadecimal digits; - for the standard input')
+    .option('--request <hex>', 'the request that the frame answers')
+    .option('--registration <hex>', 'the Entry Monitor Device before it, when the frame answers an Execute Monitor')
+    .option('--text', 'the arguments are the characters of frames in ASCII code, not hexadecimal digits')
+    .addOption(choice('--frame <name>', 'frame; 4C is format 5', FRAMES))
+    .addOption(choice('--code <code>', 'data code', ['binary', 'ascii']))
+    .addOption(profileOption().default('generic'))
+  addDigitOptions(command)
+  command.addOption(jsonOption())
+  return command.action((texts: readonly string[], options: DecodeOptions) =>
+    perform(run, options, () => decode(run.terminal, texts, options)),
+  )
+}
+
+async function decode(terminal: Terminal, texts: readonly string[], options: DecodeOptions): Promise<number> {
+  const given = texts.length === 1 && texts[0] === '-' ? await terminal.input() : texts.join(' ')
+  const bytes = (text: string, what: string) => (options.text === true ? bytesOfText(text) : bytesOfHex(text, what))
+  const frames = explainAll(bytes(given, 'the frame'), explainOptions(options, bytes))
+  const wrong = frames.some(({ fault }) => fault !== undefined)
+  if (options.json === true) terminal.out(json({ frames }))
+  else terminal.out(frames.map(formatExplanation).join('\n\n'))
+  if (wrong && options.text !== true && isAsciiFrame(given)) {
+    terminal.error('As the characters of a frame in ASCII code this is right: use --text.')
+  }
+  return wrong ? exitCodes.protocol.code : exitCodes.ok.code
+}
+
+function explainOptions(options: DecodeOptions, bytes: (text: string, what: string) => Buffer): ExplainOptions {
+  const { frame, code, profile, request, registration, asciiXy, asciiZr } = options
+  return {
+    profile,
+    ...(frame === undefined ? {} : { frame }),
+    ...(code === undefined ? {} : { code }),
+    ...(asciiXy === undefined ? {} : { asciiXy }),
+    ...(asciiZr === undefined ? {} : { asciiZr }),
+    ...(request === undefined ? {} : { request: bytes(request, 'the request') }),
+    ...(registration === undefined ? {} : { registration: bytes(registration, 'the registration') }),
+  }
+}
+
+/** A capture of a TCP stream may hold several frames, one behind the other. */
+function explainAll(bytes: Buffer, options: ExplainOptions): readonly Explanation[] {
+  const frames: Explanation[] = []
+  let rest = bytes
+  while (rest.length > 0) {
+    const explanation = explainFrame(rest, options)
+    const last = explanation.rest === 0 || explanation.rest === rest.length || explanation.fault !== undefined
+    frames.push(last ? explanation : { ...explanation, rest: 0 })
+    if (last) return frames
+    rest = rest.subarray(rest.length - explanation.rest)
+  }
+  return frames
+}
+
+/** Digits that are no frame as bytes, but one as the characters of ASCII code. */
+function isAsciiFrame(text: string): boolean {
+  const explanation = explainFrame(bytesOfText(text.replace(/\s/g, '')), { code: 'ascii' })
+  return explanation.fault === undefined
+}

@@ -1,0 +1,21 @@
+// End codes as the manuals and GX Works write them.
+import { RequestError } from '../index'
+
+/**
+ * Up to four hexadecimal digits, also as `0xC059` and `C059H`.
+ * @throws RequestError BAD_VALUE
+ */
+export function endCodeOf(text: string): number {
+  const [, digits] = /^(?:0x)?([0-9a-f]{1,4})h?$/i.exec(text.trim()) ?? []
+  if (digits !== undefined) return Number.parseInt(digits, 16)
+  throw new RequestError(
+    'BAD_VALUE',
+    `${JSON.stringify(text)} is no end code: write up to four hexadecimal digits, e.g. C056.`,
+    'end code',
+  )
+}
+
+/** e.g. `C059H` */
+export function endCodeText(endCode: number): string {
+  return `${endCode.toString(16).toUpperCase().padStart(4, '0')}H`
+}

@@ -1,0 +1,62 @@
+import { type CommandName, commands, explainEndCode, type Language, languages, RequestError } from '../index'
+import { type MakeCommand, newCommand, perform } from './command'
+import { choice, jsonOption } from './connection-options'
+import { endCodeOf, endCodeText } from './end-code'
+import { exitCodes } from './exit-code'
+import { json, table } from './output'
+import type { Terminal } from './terminal'
+
+const examples = ['explain C059', 'explain 0xC056 --language ja', 'explain C059 --command executeMonitor']
+
+interface ExplainOptions {
+  readonly language: Language
+  readonly command?: CommandName
+  readonly json?: boolean
+}
+
+/** `melsec-jw explain` */
+export const explainCommand: MakeCommand = (run) =>
+  newCommand('explain', 'what an end code of the PLC means, and what to do', examples)
+    .argument('<end code>', 'hexadecimal digits, as the PLC and GX Works show it')
+    .addOption(choice('--language <language>', 'language of the text', languages).default('en-US'))
+    .addOption(
+      choice(
+        '--command <name>',
+        'the command that got it',
+        Object.values(commands).map(({ name }) => name),
+      ),
+    )
+    .addOption(jsonOption())
+    .action((text: string, options: ExplainOptions) =>
+      perform(run, options, async () => {
+        explain(run.terminal, text, options)
+        return exitCodes.ok.code
+      }),
+    )
+
+function explain(terminal: Terminal, text: string, { language, command, json: asJson }: ExplainOptions): void {
+  const endCode = endCodeOf(text)
+  const shown = endCodeText(endCode)
+  const found = explainEndCode(endCode, { language, ...(command === undefined ? {} : { command }) })
+  if (found === undefined) {
+    throw new RequestError(
+      'BAD_VALUE',
+      `No text is known for end code ${shown}. Look it up in the manual of the module.`,
+      'end code',
+    )
+  }
+  if (asJson === true) {
+    terminal.out(json({ endCode, ...found }))
+    return
+  }
+  const { meaning, cause, remedy, exact } = found
+  terminal.out(
+    table([
+      ['End code', shown],
+      ['Meaning', meaning],
+      ...(cause === undefined ? [] : [['Cause', cause]]),
+      ['Remedy', remedy],
+      ...(exact ? [] : [['Note', 'Only the range of this code is known.']]),
+    ]),
+  )
+}

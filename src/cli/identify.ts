@@ -1,0 +1,74 @@
+import { EndCodeError, type Identity, type MelsecClient } from '../index'
+import { type MakeCommand, newCommand, perform } from './command'
+import { addConnectionOptions, type ConnectionOptions, peerText, withClient } from './connection-options'
+import { exitCodes } from './exit-code'
+import { errorData, errorText, json, table } from './output'
+import type { Terminal } from './terminal'
+
+const examples = ['identify --plc 192.168.3.39:5010', 'identify --plc 192.168.3.250:5010 --profile iq-f --json']
+
+/** `melsec-jw identify` */
+export const identifyCommand: MakeCommand = (run) => {
+  const command = addConnectionOptions(newCommand('identify', 'connect, and ask the PLC who it is', examples))
+  return command.action((options: ConnectionOptions) => perform(run, options, () => identify(run.terminal, options)))
+}
+
+function identify(terminal: Terminal, options: ConnectionOptions): Promise<number> {
+  return withClient(terminal, options, {}, async (client) => {
+    try {
+      show(terminal, options, client, await client.identify())
+      return exitCodes.ok.code
+    } catch (error) {
+      if (!(error instanceof EndCodeError)) throw error
+      // Built-in ports of Q and L do not have the command. A refusal is an answer: the PLC is there.
+      showRefusal(terminal, options, client, error)
+      return exitCodes.refused.code
+    }
+  })
+}
+
+function show(terminal: Terminal, options: ConnectionOptions, client: MelsecClient, identity: Identity): void {
+  const roundTrip = client.statistics.roundTrip?.last
+  if (options.json === true) {
+    terminal.out(json({ plc: peerText(options), ...identity, roundTrip }))
+    return
+  }
+  const { model, modelCode, models, series, profile } = identity
+  const known = models.length === 0 ? 'not in the manuals' : models.join(' or ')
+  terminal.out(
+    table([
+      ['PLC', linkText(options, client)],
+      ['Model', model],
+      ['Model code', `${modelCode.toString(16).toUpperCase().padStart(4, '0')}H (${known})`],
+      ...(series === undefined ? [] : [['Series', series]]),
+      ...(profile === undefined ? [] : [['Profile', profileText(profile, client)]]),
+      ['Round trip', roundTripText(roundTrip)],
+    ]),
+  )
+}
+
+function showRefusal(terminal: Terminal, options: ConnectionOptions, client: MelsecClient, error: EndCodeError): void {
+  const roundTrip = client.statistics.roundTrip?.last
+  if (options.json === true) terminal.out(json({ plc: peerText(options), error: errorData(error), roundTrip }))
+  else
+    terminal.out(
+      table([
+        ['PLC', linkText(options, client)],
+        ['Model', 'not told'],
+        ['Round trip', roundTripText(roundTrip)],
+      ]),
+    )
+  terminal.error(`The PLC answers, so the connection works. ${errorText(error)}`)
+}
+
+function linkText(options: ConnectionOptions, client: MelsecClient): string {
+  return `${peerText(options)}, ${options.frame ?? client.profile.frame} frame, ${client.code} code`
+}
+
+function profileText(fitting: string, { profile }: MelsecClient): string {
+  return fitting === profile.id ? fitting : `${fitting} (this was asked as ${profile.id}: use --profile ${fitting})`
+}
+
+function roundTripText(ms: number | undefined): string {
+  return ms === undefined ? 'not measured' : `${ms.toFixed(1)} ms`
+}

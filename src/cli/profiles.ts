@@ -1,0 +1,80 @@
+import { type Profile, profileIds, profiles, resolveProfile } from '../index'
+import { type MakeCommand, newCommand, perform } from './command'
+import { choiceArgument, jsonOption } from './connection-options'
+import { exitCodes } from './exit-code'
+import { json, table } from './output'
+import type { Terminal } from './terminal'
+
+const examples = ['profiles', 'profiles iq-f']
+
+/** `melsec-jw profiles` */
+export const profilesCommand: MakeCommand = (run) =>
+  newCommand('profiles', 'the families of PLCs that are known, and what they are like', examples)
+    .addArgument(choiceArgument('[id]', 'one of them, with all that is known', profileIds))
+    .addOption(jsonOption())
+    .action((id: (typeof profileIds)[number] | undefined, options: { readonly json?: boolean }) =>
+      perform(run, options, async () => {
+        show(run.terminal, id === undefined ? undefined : resolveProfile(id), options.json === true)
+        return exitCodes.ok.code
+      }),
+    )
+
+function show(terminal: Terminal, profile: Profile | undefined, asJson: boolean): void {
+  if (asJson) terminal.out(json(profile ?? { profiles: Object.values(profiles) }))
+  else terminal.out(profile === undefined ? overview() : details(profile))
+}
+
+const XY = { 8: 'octal', 16: 'hexadecimal' } as const
+
+function overview(): string {
+  const rows = Object.values(profiles).map(({ id, title, frames, xyRadix, series }) => [
+    id,
+    title,
+    frames.join(', '),
+    XY[xyRadix],
+    series,
+  ])
+  return table([['PROFILE', 'FAMILY', 'FRAMES', 'X AND Y', 'FOR'], ...rows])
+}
+
+function details(profile: Profile): string {
+  const {
+    id,
+    title,
+    series,
+    frame,
+    frames,
+    codes,
+    code,
+    transports,
+    xyRadix,
+    absentDevices,
+    inFlight,
+    monitoringTimer,
+  } = profile
+  const head = table([
+    ['Profile', id],
+    ['Family', title],
+    ['For', series],
+    ['Frames', `${frames.join(', ')} (usually ${frame})`],
+    ['Codes', `${codes.join(', ')} (usually ${code})`],
+    ['Transports', transports.join(', ')],
+    ['X and Y', XY[xyRadix]],
+    ['Without', absentDevices.length === 0 ? 'no device is missing' : absentDevices.join(' ')],
+    ['In flight', `${inFlight.tcp} over TCP, ${1 + inFlight.udpBuffer} over UDP with the 4E frame`],
+    ['Monitoring timer', monitoringTimer.zeroOnly ? '0 only' : `usually ${monitoringTimer.default} ms`],
+  ])
+  const lacks = profile.lacks.map(({ command, reason, instead }) => `  - ${command}: ${reason} ${instead}`)
+  const doubtful = profile.doubtful.map(({ command, reason }) => `  - ${command}: ${reason}`)
+  const notes = profile.notes.map((note) => `  - ${note}`)
+  return [
+    head,
+    ...titled('Commands it lacks:', lacks),
+    ...titled('Not on every port:', doubtful),
+    ...titled('To know:', notes),
+  ].join('\n')
+}
+
+function titled(title: string, lines: readonly string[]): readonly string[] {
+  return lines.length === 0 ? [] : ['', title, ...lines]
+}

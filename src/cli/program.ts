@@ -1,0 +1,66 @@
+// The program with its commands: `melsec-jw`.
+import { Command, CommanderError } from 'commander'
+import type { MakeCommand, Run } from './command'
+import { controlCommand } from './control'
+import { decodeCommand } from './decode'
+import { exitCodeHelp, exitCodes } from './exit-code'
+import { explainCommand } from './explain'
+import { identifyCommand } from './identify'
+import { profilesCommand } from './profiles'
+import { readCommand } from './read'
+import { simulateCommand } from './simulate'
+import type { Terminal } from './terminal'
+import { writeCommand } from './write'
+
+const COMMANDS: readonly MakeCommand[] = [
+  identifyCommand,
+  readCommand,
+  writeCommand,
+  controlCommand,
+  simulateCommand,
+  decodeCommand,
+  profilesCommand,
+  explainCommand,
+]
+
+const DESCRIPTION =
+  'Talk to Mitsubishi MELSEC PLCs over SLMP (MC protocol, 3E and 4E frame), and simulate one. The PLC needs an SLMP ' +
+  'entry in its Ethernet parameters; give its address and port with --plc, or once and for all in the environment ' +
+  'variable MELSEC_JW_PLC. "melsec-jw help read" explains a command.'
+
+/**
+ * Runs the command line.
+ * @param args what stands behind the program's name
+ * @returns the exit code
+ */
+export async function runProgram(args: readonly string[], version: string, terminal: Terminal): Promise<number> {
+  let exitCode: number = exitCodes.ok.code
+  const program = new Command('melsec-jw').description(DESCRIPTION).version(version).addHelpText('after', exitCodeHelp)
+  const run: Run = {
+    terminal,
+    exit: (code) => {
+      exitCode = code
+    },
+  }
+  for (const make of COMMANDS) program.addCommand(make(run))
+  for (const command of [program, ...program.commands]) configure(command, terminal)
+  try {
+    await program.parseAsync([...args], { from: 'user' })
+    return exitCode
+  } catch (error) {
+    // Commander ends so for help and version, too; what is wrong it has printed already.
+    if (error instanceof CommanderError) return error.exitCode === 0 ? exitCodes.ok.code : exitCodes.usage.code
+    throw error
+  }
+}
+
+function configure(command: Command, terminal: Terminal): void {
+  const trimmed = (text: string) => text.replace(/\n$/, '')
+  command
+    .exitOverride()
+    .showHelpAfterError('(add --help for the options)')
+    .configureOutput({
+      writeOut: (text) => terminal.out(trimmed(text)),
+      writeErr: (text) => terminal.error(trimmed(text)),
+    })
+}

@@ -1,0 +1,70 @@
+import { type MelsecClient, type ReadResult, RequestError } from '../index'
+import { type MakeCommand, newCommand, perform } from './command'
+import {
+  addConnectionOptions,
+  addFormatOptions,
+  type ConnectionOptions,
+  type FormatOptions,
+  withClient,
+} from './connection-options'
+import { exitOfResults } from './exit-code'
+import { errorData, itemErrorText, json, table, valueText } from './output'
+import type { Terminal } from './terminal'
+
+const examples = [
+  'read --plc 192.168.3.39:5010 --profile iq-r D100 M0 X1F',
+  "read --plc 192.168.3.39:5010 --profile iq-r D100:REAL 'D200:DINT[10]' M0..M15 D50.F",
+  "read --plc 192.168.3.250:5010 --profile iq-f X17 'D130:STRING(20)' --json",
+]
+
+type ReadOptions = ConnectionOptions & FormatOptions
+
+/** `melsec-jw read` */
+export const readCommand: MakeCommand = (run) => {
+  const command = newCommand('read', 'read devices of the PLC', examples)
+    .description(
+      'Read devices of the PLC. An item is a device with a type, written as in GX Works: D100 (INT), M0 (BOOL), ' +
+        'D100:REAL, D100.F (a bit of a word), D100:DINT[10] or D0..D9 (several), K4M0 (16 bits as a number), ' +
+        'D130:STRING(20), U3\\G100, J1\\W10.',
+    )
+    .argument('<items...>', 'what to read')
+  addFormatOptions(addConnectionOptions(command))
+  return command.action((items: readonly string[], options: ReadOptions) =>
+    perform(run, options, () => read(run.terminal, items, options)),
+  )
+}
+
+async function read(terminal: Terminal, items: readonly string[], options: ReadOptions): Promise<number> {
+  const { results, types } = await withClient(terminal, options, {}, async (client) => ({
+    results: await client.read(items),
+    types: items.map((item) => typeOf(client, item)),
+  }))
+  if (options.json === true) terminal.out(json({ results: results.map(resultData) }))
+  else {
+    const rows = results.flatMap((result, i) =>
+      result.ok ? [[result.item, valueText(result.value, types[i]), ...tornText(result)]] : [],
+    )
+    if (rows.length > 0) terminal.out(table(rows))
+  }
+  for (const result of results) if (!result.ok) terminal.error(itemErrorText(result.item, result.error))
+  return exitOfResults(results)
+}
+
+/** Type of an item that could be read; how many digits a number is shown with depends on it. */
+function typeOf(client: MelsecClient, item: string): string | undefined {
+  try {
+    return client.explain(item).type
+  } catch (error) {
+    // Its result says what is wrong with it.
+    if (error instanceof RequestError) return undefined
+    throw error
+  }
+}
+
+function resultData(result: ReadResult): Readonly<Record<string, unknown>> {
+  return result.ok ? { ...result } : { ...result, error: errorData(result.error) }
+}
+
+function tornText(result: ReadResult): readonly string[] {
+  return result.ok && result.torn === true ? ['(read by several requests: not of one moment)'] : []
+}

@@ -1,0 +1,208 @@
+import { Option } from 'commander'
+import {
+  createPlcSimulator,
+  demoPlantTags,
+  type Endpoint,
+  type FrameName,
+  type PlcSimulator,
+  type PlcSimulatorOptions,
+  type ProfileId,
+  plantVariantOf,
+  startDemoPlant,
+} from '../index'
+import { type MakeCommand, newCommand, perform } from './command'
+import { addCodeOptions, frameOption, jsonOption, profileOption, whole } from './connection-options'
+import { endCodeText } from './end-code'
+import { exitCodes } from './exit-code'
+import { faultHelp, faultOf } from './fault-option'
+import { json, table } from './output'
+import type { Terminal } from './terminal'
+
+const examples = [
+  'simulate --plant',
+  'simulate --profile iq-f --port 5010',
+  'simulate --port 0 --no-udp --fault delay:ms=500 --fault endCode:endCode=C056,commands=readWords,times=1',
+]
+
+/** The port of the demo, too. */
+const USUAL_PORT = 5007
+
+interface SimulateOptions {
+  readonly profile: ProfileId
+  readonly host: string
+  readonly port: number
+  readonly udpPort?: number
+  readonly tcp: boolean
+  readonly udp: boolean
+  readonly frame?: FrameName
+  readonly ascii?: boolean
+  readonly asciiXy?: 'octal' | 'hexadecimal'
+  readonly asciiZr?: 'decimal' | 'hexadecimal'
+  readonly plant?: boolean
+  readonly fault: readonly string[]
+  readonly scanTime?: number
+  readonly maxConnections?: number
+  readonly resetAllowed?: boolean
+  readonly log?: boolean
+  readonly json?: boolean
+}
+
+/** `melsec-jw simulate` */
+export const simulateCommand: MakeCommand = (run) => {
+  const command = newCommand('simulate', 'start a simulated PLC; Ctrl-C ends it', examples)
+    .description(
+      'Start a simulated PLC that answers SLMP as a CPU of the family does. It listens on this computer only, unless ' +
+        '--host says otherwise, and lives until Ctrl-C.',
+    )
+    .addOption(profileOption().default('iq-r'))
+    .option('--host <address>', 'address to listen on', '127.0.0.1')
+    .addOption(
+      new Option('--port <number>', 'TCP port, and UDP port; 0 = any free one')
+        .default(USUAL_PORT)
+        .argParser(whole(0, 65535)),
+    )
+    .addOption(new Option('--udp-port <number>', 'another UDP port').argParser(whole(0, 65535)))
+    .option('--no-tcp', 'no TCP')
+    .option('--no-udp', 'no UDP')
+    .addOption(frameOption('take this frame only; default: all of the profile'))
+  addCodeOptions(command)
+  command
+    .option('--plant', 'run the demo plant in it: a mixing tank')
+    .addOption(
+      new Option('--fault <fault>', 'switch a fault on; may be repeated').default([], 'none').argParser(collect),
+    )
+    .addOption(new Option('--scan-time <ms>', 'time from a request to its answer in RUN').argParser(whole(0, 60_000)))
+    .addOption(new Option('--max-connections <number>', 'connection entries').argParser(whole(1, 1000)))
+    .option('--reset-allowed', 'CPU parameter "Remote Reset"')
+    .option('--log', 'print every request')
+    .addOption(jsonOption())
+    .addHelpText('after', faultHelp)
+  return command.action((options: SimulateOptions) => perform(run, options, () => simulate(run.terminal, options)))
+}
+
+function collect(text: string, before: readonly string[]): readonly string[] {
+  return [...before, text]
+}
+
+async function simulate(terminal: Terminal, options: SimulateOptions): Promise<number> {
+  const plc = createPlcSimulator(simulatorOptions(options))
+  for (const text of options.fault) plc.faults.add(faultOf(text))
+  await plc.listen()
+  const interrupted = interruption()
+  if (options.plant === true) startDemoPlant(plc)
+  if (options.log === true) logRequests(terminal, plc)
+  show(terminal, plc, options)
+  await interrupted
+  await plc.close()
+  return exitCodes.ok.code
+}
+
+function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
+  const {
+    profile,
+    host,
+    port,
+    udpPort = port,
+    frame,
+    asciiXy,
+    asciiZr,
+    scanTime,
+    maxConnections,
+    resetAllowed,
+  } = options
+  return {
+    profile,
+    host,
+    tcp: options.tcp ? { port } : false,
+    udp: options.udp ? { port: udpPort } : false,
+    code: options.ascii === true ? 'ascii' : 'binary',
+    ...(frame === undefined ? {} : { frames: [frame] }),
+    ...(asciiXy === undefined ? {} : { asciiXy }),
+    ...(asciiZr === undefined ? {} : { asciiZr }),
+    ...(scanTime === undefined ? {} : { scanTime }),
+    ...(maxConnections === undefined ? {} : { maxConnections }),
+    ...(resetAllowed === undefined ? {} : { resetAllowed }),
+  }
+}
+
+/** Resolves at Ctrl-C, and when another program asks this one to end. */
+function interruption(): Promise<void> {
+  return new Promise((resolve) => {
+    for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) process.once(signal, () => resolve())
+  })
+}
+
+function show(terminal: Terminal, plc: PlcSimulator, options: SimulateOptions): void {
+  const tags = demoPlantTags[plantVariantOf(plc.profile.id)]
+  if (options.json === true) {
+    const { profile, tcp, udp } = plc
+    terminal.out(json({ profile: profile.id, tcp, udp, ...(options.plant === true ? { plant: tags } : {}) }))
+    return
+  }
+  const { profile } = plc
+  const frames = options.frame ?? profile.frames.join(', ')
+  const code = options.ascii === true ? 'ASCII' : 'binary'
+  terminal.out(
+    [
+      `Simulated ${profile.title}, profile ${profile.id}. Ctrl-C ends it.`,
+      table([...addressRow('TCP', plc.tcp), ...addressRow('UDP', plc.udp), ['Frames', frames], ['Code', code]], '  '),
+      ...(options.fault.length === 0 ? [] : [`Faults: ${options.fault.join('  ')}`]),
+      ...(options.plant === true ? ['', 'Demo plant:', plantTable(tags)] : []),
+      '',
+      `Try: ${trial(plc, options)}`,
+    ].join('\n'),
+  )
+  if (!isLoopback(options.host))
+    terminal.error(`Everybody who reaches ${options.host} can write to this simulated PLC.`)
+}
+
+function isLoopback(host: string): boolean {
+  return host === 'localhost' || host === '::1' || host.startsWith('127.')
+}
+
+function addressRow(name: string, endpoint: Endpoint | undefined): readonly (readonly string[])[] {
+  return endpoint === undefined ? [] : [[name, addressText(endpoint)]]
+}
+
+function addressText({ host, port }: Endpoint): string {
+  return `${host.includes(':') ? `[${host}]` : host}:${port}`
+}
+
+function plantTable(tags: (typeof demoPlantTags)['iq-r']): string {
+  return table(
+    tags.map(({ name, address, title, unit, writable }) => [
+      address,
+      name,
+      unit === undefined ? title : `${title} (${unit})`,
+      ...(writable ? ['may be written'] : []),
+    ]),
+    '  ',
+  )
+}
+
+/** A command that reads something from it. */
+function trial({ tcp, udp, profile }: PlcSimulator, { ascii, frame, plant }: SimulateOptions): string {
+  const peer = tcp ?? udp
+  const settings = [
+    ...(peer === undefined ? [] : [`--plc ${addressText(peer)}`]),
+    ...(tcp === undefined ? ['--udp'] : []),
+    `--profile ${profile.id}`,
+    ...(frame === undefined ? [] : [`--frame ${frame}`]),
+    ...(ascii === true ? ['--ascii'] : []),
+  ]
+  return `melsec-jw read ${settings.join(' ')} ${plant === true ? 'D100:REAL M10' : 'D0 M0'}`
+}
+
+function logRequests(terminal: Terminal, plc: PlcSimulator): void {
+  plc.on('connection', ({ change, connection: { remote } }) => terminal.error(`${remote} ${change}`))
+  plc.on('request', (event) => {
+    const what = event.command ?? 'unknown command'
+    const answer =
+      event.endCode === undefined
+        ? 'not answered'
+        : event.endCode === 0
+          ? 'carried out'
+          : `refused ${endCodeText(event.endCode)}`
+    terminal.error(`${event.remote} ${what}: ${answer}`)
+  })
+}

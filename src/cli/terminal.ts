@@ -1,0 +1,50 @@
+// Where the command line writes to and whom it asks.
+import { createInterface } from 'node:readline/promises'
+
+export interface Terminal {
+  /** Results. */
+  out(text: string): void
+  /** Everything else: errors, questions, traces. */
+  error(text: string): void
+  /** Whether somebody is there to answer a question. */
+  readonly interactive: boolean
+  /** The answer that was typed; empty when the input ended. */
+  ask(question: string): Promise<string>
+  /** All of the standard input. */
+  input(): Promise<string>
+}
+
+/** The terminal of this process. */
+export function processTerminal(): Terminal {
+  return {
+    out: (text) => void process.stdout.write(`${text}\n`),
+    error: (text) => void process.stderr.write(`${text}\n`),
+    // The question goes to stderr, so that the results can be piped.
+    interactive: process.stdin.isTTY === true && process.stderr.isTTY === true,
+    ask: async (question) => {
+      const lines = createInterface({ input: process.stdin, output: process.stderr })
+      const ended = new Promise<string>((resolve) => lines.once('close', () => resolve('')))
+      try {
+        return await Promise.race([lines.question(question), ended])
+      } finally {
+        lines.close()
+      }
+    },
+    input: async () => {
+      const chunks: Buffer[] = []
+      for await (const chunk of process.stdin) chunks.push(Buffer.from(chunk))
+      return Buffer.concat(chunks).toString('utf8')
+    },
+  }
+}
+
+/**
+ * Whether to go on with something that changes the PLC: said beforehand (`yes`), or answered with y.
+ * @returns why not; `undefined` to go on.
+ */
+export async function refusalOf(terminal: Terminal, yes: boolean, what: string): Promise<string | undefined> {
+  if (yes) return undefined
+  if (!terminal.interactive) return 'This is no terminal to ask on. Look at what is to be done, then say --yes.'
+  const answer = await terminal.ask(`${what}\nGo on? [y/N] `)
+  return /^\s*y(es)?\s*$/i.test(answer) ? undefined : 'Not confirmed.'
+}

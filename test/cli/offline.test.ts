@@ -1,0 +1,187 @@
+/** The commands that need no PLC: decode, explain, profiles, help. */
+import { beforeAll, describe, expect, test } from '@jest/globals'
+import { build, run, runWith } from './cli'
+import { runHere } from './in-process'
+
+beforeAll(build, 120_000)
+
+const REQUEST = '500000ffff03000c00100001040000640000a80200'
+const ANSWER = 'd00000ffff03000600000005 00ffff'.replaceAll(' ', '')
+
+describe('decode', () => {
+  test('explains a request', async () => {
+    const { code, out, err } = await run('decode', REQUEST)
+    expect([code, err]).toEqual([0, ''])
+    expect(out).toMatch(/^3E request, binary code: Read \(word units\), D100, 2 points$/m)
+    expect(out).toMatch(/^ +15 {2}64 00 00 A8 {2}head +D100 \(data register\)$/m)
+  })
+
+  test('explains a response with its request, and says without it that it is needed', async () => {
+    expect((await run('decode', ANSWER, '--request', REQUEST)).out).toMatch(/D100\.\.D101: 5 -1$/m)
+    const { code, out } = await run('decode', ANSWER)
+    expect(code).toBe(0)
+    expect(out).toMatch(/Note: .*request/)
+  })
+
+  test('as JSON', async () => {
+    const { code, out } = await run('decode', ANSWER, '--request', REQUEST, '--json')
+    expect(code).toBe(0)
+    expect(JSON.parse(out)).toMatchObject({
+      frames: [{ frame: '3E', direction: 'response', command: 'readWords', endCode: 0, rest: 0, notes: [] }],
+    })
+    expect(out).toContain('"value": "d000"')
+  })
+
+  test('takes bytes as they are copied: spaces, colons, 0x, several arguments, the standard input', async () => {
+    const spaced = REQUEST.replace(/../g, '$& ').trim()
+    const expected = (await run('decode', REQUEST)).out
+    expect((await run('decode', ...spaced.split(' '))).out).toBe(expected)
+    expect((await run('decode', spaced.replaceAll(' ', ':').toUpperCase())).out).toBe(expected)
+    expect((await run('decode', spaced.replace(/\S+/g, '0x$&').replaceAll(' ', ', '))).out).toBe(expected)
+    expect((await runWith({ input: `${spaced}\n` }, 'decode', '-')).out).toBe(expected)
+  })
+
+  test('takes the characters of a frame in ASCII code, and says when they were meant', async () => {
+    const characters = '500000FF03FF000018001004010000D*0001000002'
+    const { code, out } = await run('decode', '--text', characters)
+    expect(code).toBe(0)
+    expect(out).toMatch(/^3E request, ASCII code: Read \(word units\), D100, 2 points$/m)
+    const digits = '500000FF03FF00000C00100619000000041234'
+    const mistaken = await run('decode', digits)
+    expect(mistaken.code).toBe(5)
+    expect(mistaken.err).not.toContain('--text')
+    const meant = await run('decode', '500000FF03FF000014001006190000000412AB')
+    expect(meant.code).toBe(5)
+    expect(meant.err).toContain('--text')
+  })
+
+  test('explains a broken frame up to where it is wrong', async () => {
+    const { code, out } = await run('decode', REQUEST.slice(0, -2))
+    expect(code).toBe(5)
+    expect(out).toMatch(/head +D100 \(data register\)/)
+    expect(out).toMatch(/Wrong at byte 19 \(points\)/)
+    const asJson = await run('decode', REQUEST.slice(0, -2), '--json')
+    expect(asJson.code).toBe(5)
+    expect(JSON.parse(asJson.out)).toMatchObject({ frames: [{ fault: { offset: 19, name: 'points' } }] })
+  })
+
+  test('explains the frames of a capture one by one', async () => {
+    const { code, out } = await run('decode', REQUEST + REQUEST, '--json')
+    expect(code).toBe(0)
+    expect(JSON.parse(out)).toMatchObject({ frames: [{ command: 'readWords' }, { command: 'readWords' }] })
+  })
+
+  test('frames that must be said: 1E and 4C', async () => {
+    expect((await run('decode', '--frame', '1e', '01ff0a006400000020440300')).out).toMatch(
+      /^1E request, .*D100, 3 points$/m,
+    )
+    const format5 = '10021200f80000ffff030000010400006400 00a8020010033145'.replaceAll(' ', '')
+    expect((await run('decode', '--frame', '4C', format5)).out).toMatch(
+      /^4C request, format 5: Read \(word units\), D100/m,
+    )
+  })
+
+  test('X and Y as the family numbers them', async () => {
+    const x = '500000ffff03000c001000010401000f00009c0100'
+    expect((await run('decode', x)).out).toContain('XF (input)')
+    expect((await run('decode', x, '--profile', 'iq-f')).out).toContain('X17 (input)')
+  })
+
+  test.each([
+    [['decode', '5000z'], /"z" is no hexadecimal digit/],
+    [['decode', '500'], /3 hexadecimal digits are no whole number of bytes/],
+    [['decode', ' '], /there are no bytes/],
+    [['decode', REQUEST, '--request', 'xyz'], /the request: .*hexadecimal/],
+    [['decode', REQUEST, '--frame', '5E'], /3E, 4E, 1E, 4C/],
+    [['decode'], /missing required argument/],
+  ])('%j is wrong use', async (args, message) => {
+    const { code, out, err } = await runHere(args)
+    expect([code, out]).toEqual([2, ''])
+    expect(err).toMatch(message)
+  })
+})
+
+describe('explain', () => {
+  test.each(['C059', '0xc059', 'c059h'])('%s: meaning and remedy', async (text) => {
+    const { code, out } = await runHere(['explain', text])
+    expect(code).toBe(0)
+    expect(out).toMatch(/^End code +C059H$/m)
+    expect(out).toMatch(/^Meaning +\S/m)
+    expect(out).toMatch(/^Remedy +\S/m)
+  })
+
+  test('with the command that got it, and in other languages', async () => {
+    expect((await run('explain', 'C059', '--command', 'executeMonitor')).out).toMatch(/^Cause +\S/m)
+    expect((await run('explain', 'C059', '--language', 'ja')).out).toMatch(/[ぁ-ん]/)
+  })
+
+  test('as JSON', async () => {
+    const { out } = await run('explain', 'C056', '--json')
+    expect(JSON.parse(out)).toMatchObject({ endCode: 0xc056, exact: true })
+  })
+
+  test.each([
+    ['0001', /No text is known for end code 0001H/],
+    ['hello', /no end code: write up to four hexadecimal digits/],
+  ])('%s', async (text, message) => {
+    const { code, err } = await runHere(['explain', text])
+    expect(code).toBe(2)
+    expect(err).toMatch(message)
+  })
+})
+
+describe('profiles', () => {
+  test('lists them', async () => {
+    const { code, out } = await run('profiles')
+    expect(code).toBe(0)
+    expect(
+      out
+        .trim()
+        .split('\n')
+        .map((line) => line.split(' ')[0]),
+    ).toEqual(['PROFILE', 'iq-r', 'iq-f', 'q', 'l', 'generic'])
+  })
+
+  test('tells all about one', async () => {
+    const { out } = await run('profiles', 'iq-f')
+    expect(out).toMatch(/^X and Y +octal$/m)
+    expect(out).toMatch(/- entryMonitorDevice: .*readRandom/)
+  })
+
+  test('as JSON', async () => {
+    expect(JSON.parse((await run('profiles', '--json')).out).profiles).toHaveLength(5)
+    expect(JSON.parse((await run('profiles', 'q', '--json')).out)).toMatchObject({ id: 'q', xyRadix: 16 })
+  })
+
+  test('an unknown one is wrong use', async () => {
+    const { code, err } = await runHere(['profiles', 'x'])
+    expect(code).toBe(2)
+    expect(err).toContain('iq-r, iq-f, q, l, generic')
+  })
+})
+
+describe('help', () => {
+  test('of the program lists the commands and the exit codes', async () => {
+    const { code, out } = await run('--help')
+    expect(code).toBe(0)
+    for (const name of ['identify', 'read', 'write', 'control', 'simulate', 'decode', 'profiles', 'explain']) {
+      expect(out).toMatch(new RegExp(`^  ${name} `, 'm'))
+    }
+    expect(out).toMatch(/^Exit codes:$/m)
+    expect(out).toMatch(/^ {2}3 {2}the PLC refused it/m)
+  })
+
+  test.each(['identify', 'read', 'write', 'control', 'simulate', 'decode', 'profiles', 'explain'])(
+    'of %s has examples',
+    async (name) => {
+      const { code, out } = await runHere([name, '--help'])
+      expect(code).toBe(0)
+      expect(out).toMatch(new RegExp(`Examples:\n  melsec-jw ${name}`))
+    },
+  )
+
+  test("the version is the package's", async () => {
+    const { version } = require('../../package.json') as { version: string }
+    expect((await run('--version')).out.trim()).toBe(version)
+  })
+})

@@ -1,0 +1,146 @@
+/** `melsec-jw simulate`, and the example programs against it. */
+import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
+import { createMelsecClient, createPlcSimulator, type MelsecClient } from '../../src/index'
+import { build, example, type Running, run, start } from './cli'
+import { runHere } from './in-process'
+
+beforeAll(build, 120_000)
+
+const running: Running[] = []
+const clients: MelsecClient[] = []
+
+afterEach(async () => {
+  await Promise.all(clients.splice(0).map((client) => client.close()))
+  await Promise.all(running.splice(0).map((program) => program.interrupt()))
+})
+
+/** Starts a simulated PLC on a free port. */
+async function simulate(...args: readonly string[]): Promise<{ readonly program: Running; readonly port: number }> {
+  const program = start('simulate', '--port', '0', ...args)
+  running.push(program)
+  const [, port] = await program.says(/127\.0\.0\.1:(\d+)/)
+  return { program, port: Number(port) }
+}
+
+function clientOf(port: number, options: Partial<Parameters<typeof createMelsecClient>[0]> = {}): MelsecClient {
+  const client = createMelsecClient({ host: '127.0.0.1', port, profile: 'iq-r', ...options })
+  clients.push(client)
+  return client
+}
+
+describe('simulate', () => {
+  test('says where it listens, answers, and ends at Ctrl-C', async () => {
+    const { program, port } = await simulate()
+    expect((await clientOf(port).identify()).model).toBe('R08CPU')
+    const { code, out, err } = await program.interrupt()
+    expect([code, err]).toEqual([0, ''])
+    expect(out).toMatch(/^ {2}TCP +127\.0\.0\.1:\d+\n {2}UDP +127\.0\.0\.1:\d+\n {2}Frames +4E, 3E\n {2}Code +binary$/m)
+    expect(out).toContain(`Try: melsec-jw read --plc 127.0.0.1:${port} --profile iq-r D0 M0`)
+  })
+
+  test('answers over UDP, as another family, in ASCII code', async () => {
+    const { program } = await simulate('--profile', 'iq-f', '--no-tcp', '--ascii')
+    const [, port] = await program.says(/UDP +127\.0\.0\.1:(\d+)/)
+    const client = clientOf(Number(port), { transport: 'udp', profile: 'iq-f', code: 'ascii' })
+    expect((await client.identify()).series).toBe('iQ-F')
+  })
+
+  test('runs the demo plant, and lists its tags', async () => {
+    const { program, port } = await simulate('--plant')
+    await program.says(/D100:REAL +level +Level \(l\)/)
+    await program.says(/D110:REAL .* may be written/)
+    expect(await clientOf(port).read('D130:STRING(20)')).toBe('Apple juice')
+  })
+
+  test('as JSON', async () => {
+    const program = start('simulate', '--port', '0', '--no-udp', '--plant', '--json')
+    running.push(program)
+    await program.says(/\n}\n/)
+    const { out } = await program.interrupt()
+    const said = JSON.parse(out) as Readonly<Record<string, unknown>>
+    expect(said).toMatchObject({ profile: 'iq-r', tcp: { host: '127.0.0.1', port: expect.any(Number) } })
+    expect(said.udp).toBeUndefined()
+    expect(said.plant).toContainEqual(expect.objectContaining({ name: 'level', address: 'D100:REAL' }))
+  })
+
+  test('faults', async () => {
+    const { port } = await simulate(
+      '--fault',
+      'endCode:endCode=C056,commands=readWords+readBits,times=1',
+      '--fault',
+      'delay:ms=1',
+    )
+    const client = clientOf(port)
+    await expect(client.read('D0')).rejects.toMatchObject({ endCode: 0xc056 })
+    expect(await client.read('D0')).toBe(0)
+  })
+
+  test('--log prints the requests', async () => {
+    const { program, port } = await simulate('--log')
+    await clientOf(port).read('D0')
+    await program.says(/127\.0\.0\.1:\d+ readWords: carried out/)
+  })
+
+  test.each([
+    [['--fault', 'explode'], /there is no fault "explode". Faults are silence, /],
+    [['--fault', 'delay:often'], /write name=value/],
+    [['--fault', 'delay:hours=3'], /has no hours/],
+    [['--fault', 'endCode:endCode=zz'], /no end code/],
+    [['--fault', 'silence:commands=fly'], /there is no command "fly"/],
+    [['--profile', 'iq-f', '--frame', '4E'], /frames is .* here, not 4E/],
+    [['--port', '70000'], /0 to 65535/],
+  ])('%j is wrong use', async (args, message) => {
+    const { code, out, err } = await runHere(['simulate', ...args])
+    expect([code, out]).toEqual([2, ''])
+    expect(err).toMatch(message)
+  })
+
+  test('a port that is taken', async () => {
+    const { port } = await simulate()
+    const { code, err } = await run('simulate', '--port', String(port), '--no-udp')
+    expect(code).toBe(4)
+    expect(err).toMatch(new RegExp(String(port)))
+    expect(err).not.toMatch(/^\s+at /m)
+  })
+})
+
+describe('example programs', () => {
+  test('read-and-write reads, writes and puts the old value back', async () => {
+    const { port } = await simulate('--plant')
+    const { code, out, err } = await example('read-and-write.mjs', '127.0.0.1', String(port)).ended()
+    expect([code, err]).toEqual([0, ''])
+    expect(out).toMatch(/^level +\d+\.\d l$/m)
+    expect(out).toMatch(/product: 'Apple juice'/)
+    expect(out).toMatch(/^alarm +false\nnonsense +not read: \w+$/m)
+    expect(out).toMatch(/^D110 +was 800, is 650\nD110 +is 800 again$/m)
+  })
+
+  test('read-and-write says why there is no PLC', async () => {
+    const simulator = createPlcSimulator({ udp: false })
+    await simulator.listen()
+    const port = simulator.tcp?.port
+    await simulator.close()
+    const { code, err } = await example('read-and-write.mjs', '127.0.0.1', String(port)).ended()
+    expect(code).toBe(1)
+    expect(err).toMatch(/^CONNECT_FAILED \(notSent\): /)
+  })
+
+  test('watch prints what changes, and reconnects', async () => {
+    const simulator = createPlcSimulator({ profile: 'iq-r', restartTime: 0 })
+    await simulator.listen()
+    simulator.write('D0', 5)
+    const watch = example('watch.mjs', '127.0.0.1', String(simulator.tcp?.port), 'D0', 'M0')
+    try {
+      await watch.says(/ D0 +5\n/)
+      await watch.says(/ M0 +false\n/)
+      simulator.write('D0', 6)
+      await watch.says(/ D0 +6\n/)
+      simulator.restart()
+      await watch.says(/no connection: .* connected\n.* D0 +0\n/s)
+    } finally {
+      const { code } = await watch.interrupt()
+      expect(code).toBe(0)
+      await simulator.close()
+    }
+  })
+})
