@@ -18,9 +18,9 @@ export class Alarm {
     this.#ring = ring
   }
 
-  /** Makes sure that it rings at `due` or earlier. `undefined`: nothing is due. */
-  set(due: number | undefined): void {
-    if (due === undefined || due >= this.#due) return
+  /** Makes sure that it rings at `due` or earlier. `Infinity`: nothing is due. */
+  set(due: number): void {
+    if (due >= this.#due) return
     this.#cancel?.()
     this.#due = due
     this.#cancel = this.#clock.timer(Math.max(0, due - this.#clock.now()), () => this.#rung())

@@ -1,20 +1,13 @@
-// One connection to one PLC, in the background: joins the pure parts (supervisor, session) with a transport and the
-// clock, and gives promises. It knows no protocol family; Exchange and Framing bring that.
-import {
-  ClosedError,
-  type ConnectionError,
-  EndCodeError,
-  endsConnection,
-  type PlcError,
-  ProtocolError,
-} from '../errors'
-import { type Exchange, type ResponseFrame, SerialNumbers, Session, type SessionEvent } from '../link/link'
+// One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
+// It knows no protocol family; Exchange and Framing bring that.
+import { ClosedError, type PlcError } from '../errors'
+import { type Exchange, type ResponseFrame, SerialNumbers } from '../link/link'
 import type { Clock } from '../transport/clock'
-import type { Transport } from '../transport/transport'
 import { Alarm } from './alarm'
 import { Call, type CallOptions, optionProblem, type Settle } from './call'
 import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
 import * as failure from './failure'
+import { Line, type LineOwner, takeAsDone } from './line'
 import { Signals } from './signals'
 import { Counters, type Statistics } from './statistics'
 import { Supervisor } from './supervisor'
@@ -22,26 +15,18 @@ import { tell } from './tell'
 
 export type { ConnectionOptions, ConnectionState, Silence, TracedFrame } from './connection-options'
 
-/** Requests without any answer in a row after which the connection counts as dead, although nobody closed it. */
-const SILENT_REQUESTS = 2
-
 export class Connection<Head> {
   readonly #options: ConnectionOptions<Head>
   readonly #clock: Clock
   readonly #supervisor: Supervisor
   readonly #counters = new Counters()
-  readonly #serials: SerialNumbers
   readonly #alarm: Alarm
   readonly #signals = new Signals()
+  readonly #owner: LineOwner
   /** Calls that wait for the connection. */
   #held: Call<Head>[] = []
-  #transport: Transport | undefined
-  #session: Session<Head, Call<Head>> | undefined
-  #probe: Call<Head> | undefined
-  #attemptDeadline: number | undefined
+  #line: Line<Head> | undefined
   #answeredBefore = false
-  #silent = 0
-  #receivedInAttempt = false
   #since: number
   #generation = 0
   /** Set by the owner to see every frame; costs nothing while unset. */
@@ -51,9 +36,21 @@ export class Connection<Head> {
     this.#options = options
     this.#clock = options.clock
     this.#supervisor = new Supervisor(options.supervisor)
-    this.#serials = new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000))
     this.#alarm = new Alarm(options.clock, () => this.#guard(() => this.#timeout()))
     this.#since = options.clock.time()
+    const { explainSilence } = options
+    this.#owner = {
+      counters: this.#counters,
+      serials: new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000)),
+      verified: () => this.#verified(),
+      proved: () => this.#supervisor.proved(),
+      lost: (error) => this.#lost(error),
+      schedule: () => this.#schedule(),
+      trace: (direction, bytes) => {
+        if (this.onTrace !== undefined) tell(this.onTrace, { time: this.#clock.time(), direction, bytes })
+      },
+      causes: (peer) => explainSilence({ peer, answeredBefore: this.#answeredBefore }),
+    }
   }
 
   get state(): ConnectionState {
@@ -73,7 +70,7 @@ export class Connection<Head> {
   }
 
   get statistics(): Statistics {
-    return this.#counters.read(this.#held.length + (this.#session?.queued ?? 0), this.#session?.inFlight ?? 0)
+    return this.#counters.read(this.#waiting(), this.#line?.inFlight ?? 0)
   }
 
   /** Sends a request when its turn comes and resolves with its answer. Every rejection is a `PlcError`. */
@@ -121,7 +118,7 @@ export class Connection<Head> {
         this.#signals.watch(signal, () => this.#guard(() => this.#abort(call))),
       )
     }
-    this.#guard(() => this.#start(call, now))
+    this.#guard(() => this.#start(call))
   }
 
   #refusalOf({ title }: Exchange<Head, unknown>, signal: AbortSignal | undefined): PlcError | undefined {
@@ -131,14 +128,19 @@ export class Connection<Head> {
       return new ClosedError('ABORTED', `${title} was aborted before it was sent.`, 'notSent', signal.reason)
     }
     if (name !== 'connected' && !hopeful) return failure.offline(title, error)
-    const waiting = this.#held.length + (this.#session?.queued ?? 0)
+    const waiting = this.#waiting()
     return waiting < this.#options.queueLimit ? undefined : failure.queueFull(title, waiting)
   }
 
-  #start(call: Call<Head>, now: number): void {
-    if (this.#supervisor.name === 'connected' && this.#session !== undefined) {
-      this.#session.submit(call, now)
-      this.#flush()
+  /** Requests that wait for the connection or for their turn on it. */
+  #waiting(): number {
+    return this.#held.length + (this.#line?.queued ?? 0)
+  }
+
+  #start(call: Call<Head>): void {
+    if (this.#supervisor.name === 'connected' && this.#line !== undefined) {
+      this.#line.submit(call)
+      this.#line.flush()
       return
     }
     this.#held.push(call)
@@ -146,70 +148,28 @@ export class Connection<Head> {
     this.#schedule()
   }
 
-  /** Ends everything. Calls in flight are settled with `CLOSED`. */
-  close(): void {
-    if (this.#supervisor.name === 'closed') return
-    this.#supervisor.close()
-    const session = this.#session
-    const held = this.#held
-    this.#held = []
-    this.#dropTransport()
-    this.#alarm.cancel()
-    session?.disconnected()
-    if (session !== undefined) this.#closeCalls(session)
-    for (const call of held) call.fail(failure.closedMeanwhile(call, 'notSent'))
-    this.#tellState()
-  }
-
-  #closeCalls(session: Session<Head, Call<Head>>): void {
-    for (let event = session.poll(); event !== undefined; event = session.poll()) {
-      if (event.kind !== 'done') continue
-      const { job, outcome } = event
-      // An answer that arrived just before is one all the same.
-      if (outcome.kind === 'answered') job.answer(outcome.frame)
-      else job.fail(failure.closedMeanwhile(job, outcome.kind === 'failed' || outcome.sent ? 'unknown' : 'notSent'))
-    }
-  }
-
   #abort(call: Call<Head>): void {
     const held = this.#held.indexOf(call)
     if (held >= 0) this.#held.splice(held, 1)
     // A call that nobody knows any more has just been settled in the session: only "unknown" is certain to be true.
-    const sent = held < 0 && (this.#session?.abandon(call, this.#clock.now()) ?? true)
+    const sent = held < 0 && (this.#line?.abandon(call) ?? true)
     if (call.sends) this.#counters.add('aborted')
     call.fail(call.aborted(sent ? 'unknown' : 'notSent'))
-    this.#flush()
+    this.#line?.flush()
   }
 
-  // --- the connection
-
-  #open(): void {
-    const now = this.#clock.now()
-    this.#attemptDeadline = now + this.#options.connectTimeout
-    this.#receivedInAttempt = false
-    this.#silent = 0
-    this.#counters.add('connects')
-    let transport: Transport
-    try {
-      transport = this.#options.openTransport()
-    } catch (error) {
-      this.#lost(failure.asPlcError(error))
-      return
-    }
-    this.#transport = transport
+  /** Ends everything. Calls in flight are settled with `CLOSED`. */
+  close(): void {
+    if (this.#supervisor.name === 'closed') return
+    this.#supervisor.close()
+    this.#alarm.cancel()
+    const line = this.#line
+    const held = this.#held
+    this.#line = undefined
+    this.#held = []
+    line?.end((call, sent) => call.fail(failure.closedMeanwhile(call, sent ? 'unknown' : 'notSent')))
+    for (const call of held) call.fail(failure.closedMeanwhile(call, 'notSent'))
     this.#tellState()
-    // A transport that was given up may still have a callback under way: only the present one is listened to.
-    const present = (run: () => void) => {
-      if (this.#transport === transport) this.#guard(run)
-    }
-    present(() =>
-      transport.open({
-        opened: () => present(() => this.#opened(transport)),
-        received: (bytes) => present(() => this.#received(bytes)),
-        closed: (error) => present(() => this.#disconnected(error)),
-      }),
-    )
-    this.#schedule()
   }
 
   /** Anything that is thrown here is a bug of this package; the machine beside us must not lose its program to it. */
@@ -221,41 +181,19 @@ export class Connection<Head> {
     }
   }
 
-  #opened(transport: Transport): void {
-    const now = this.#clock.now()
-    const { framing, inFlight, timeout, connectTimeout } = this.#options
-    this.#session = new Session<Head, Call<Head>>(framing, {
-      kind: transport.kind,
-      window: inFlight,
-      serials: this.#serials,
+  #open(): void {
+    this.#counters.add('connects')
+    const line = new Line(this.#options, this.#owner)
+    this.#line = line
+    this.#tellState()
+    this.#guard(() => {
+      // A listener may have closed the connection meanwhile.
+      if (this.#line === line) line.open()
     })
-    const exchange = this.#options.probe()
-    // Nobody awaits the probe; how it ends is seen in #answered and #timedOut.
-    this.#probe = new Call(exchange, now + Math.min(timeout, connectTimeout), {
-      answer: (frame) => {
-        if (frame !== undefined) exchange.decode(frame)
-      },
-      fail: () => {},
-    })
-    this.#attemptDeadline = undefined
-    this.#session.submit(this.#probe, now)
-    this.#flush()
-  }
-
-  #received(bytes: Buffer): void {
-    this.#receivedInAttempt = true
-    this.#counters.add('bytesReceived', bytes.length)
-    this.#trace('received', bytes)
-    this.#session?.receive(bytes, this.#clock.now())
-    this.#flush()
-  }
-
-  #disconnected(error: ConnectionError | undefined): void {
-    this.#lost(error ?? failure.closedByPeer(this.#peer(), this.#receivedInAttempt))
+    this.#schedule()
   }
 
   #verified(): void {
-    this.#probe = undefined
     this.#answeredBefore = true
     this.#generation += 1
     this.#supervisor.connected(this.#clock.now())
@@ -263,31 +201,18 @@ export class Connection<Head> {
     const held = this.#held
     this.#held = []
     for (const call of held) {
-      if (call.sends) this.#session?.submit(call, this.#clock.now())
+      if (call.sends) this.#line?.submit(call)
       else call.answer(undefined)
     }
   }
 
-  #dropTransport(): void {
-    this.#transport?.close()
-    this.#transport = undefined
-    this.#session = undefined
-    this.#probe = undefined
-    this.#attemptDeadline = undefined
-  }
-
   #lost(error: PlcError): void {
     if (this.#supervisor.name === 'closed') return
-    const session = this.#session
-    const probe = this.#probe
-    const rest = session === undefined ? 0 : this.#restOfPort()
-    this.#dropTransport()
-    this.#supervisor.lost(error, this.#clock.now(), rest)
-    if (session !== undefined) {
-      this.#counters.add('disconnects')
-      session.disconnected()
-      this.#settleLost(session, probe, error)
-    }
+    const line = this.#line
+    this.#line = undefined
+    this.#supervisor.lost(error, this.#clock.now(), line?.restOfPort() ?? 0)
+    if (line?.isOpen === true) this.#counters.add('disconnects')
+    line?.end((call, sent) => this.#handedBack(call, sent, error))
     if (!this.#supervisor.hopeful) {
       const held = this.#held
       this.#held = []
@@ -297,166 +222,21 @@ export class Connection<Head> {
     this.#schedule()
   }
 
-  /**
-   * How long the local port must be left alone: where it is fixed a late answer still arrives on it, and without a
-   * serial number it would be taken for the next one.
-   */
-  #restOfPort(): number {
-    const { framing, timeout } = this.#options
-    if (this.#transport?.kind !== 'datagram' || framing.correlation === 'serial') return 0
-    try {
-      return this.#transport.renew() ? 0 : timeout
-    } catch {
-      // Closed by the system, because nothing receives on the PLC's port: then nothing answers from there either.
-      return 0
-    }
-  }
-
-  #settleLost(session: Session<Head, Call<Head>>, probe: Call<Head> | undefined, reason: PlcError): void {
-    for (let event = session.poll(); event !== undefined; event = session.poll()) {
-      if (event.kind === 'drop' || event.kind === 'renew') continue
-      if (event.kind !== 'done' || event.outcome.kind !== 'disconnected') {
-        this.#take(event)
-        continue
-      }
-      const { job, outcome } = event
-      if (job === probe) continue
-      if (outcome.sent) this.#settleUnknown(job, reason)
-      else if (this.#supervisor.hopeful) this.#held.push(job)
-      else job.fail(failure.offline(job.exchange.title, reason))
-    }
-  }
-
-  #settleUnknown(call: Call<Head>, reason: PlcError): void {
-    if (!call.exchange.answered && failure.isSuccessOfReset(reason)) this.#takeAsDone(call)
-    else call.fail(failure.lostInFlight(call.exchange.title, reason))
-  }
-
-  /** A command that is not answered when it succeeds (Remote Reset): silence and a lost connection are its success. */
-  #takeAsDone(call: Call<Head>): void {
-    call.answer({ head: call.head, serial: undefined, endCode: 0, body: Buffer.alloc(0) })
-  }
-
-  // --- events and time
-
-  /** Takes what the session has to say, then what it has to send, until it is quiet. */
-  #flush(): void {
-    const session = this.#session
-    if (session === undefined) return
-    for (let event = session.poll(); event !== undefined; event = session.poll()) {
-      this.#take(event)
-      if (this.#session !== session) return
-    }
-    for (let bytes = session.transmit(); bytes !== undefined; bytes = session.transmit()) {
-      this.#send(bytes)
-      if (this.#session !== session) return
-    }
-    this.#schedule()
-  }
-
-  #send(bytes: Buffer): void {
-    this.#counters.add('bytesSent', bytes.length)
-    this.#trace('sent', bytes)
-    try {
-      this.#transport?.send(bytes)
-    } catch (error) {
-      this.#lost(failure.asPlcError(error))
-    }
-  }
-
-  #trace(direction: TracedFrame['direction'], bytes: Buffer): void {
-    if (this.onTrace !== undefined) tell(this.onTrace, { time: this.#clock.time(), direction, bytes })
-  }
-
-  #take(event: SessionEvent<Head, Call<Head>>): void {
-    switch (event.kind) {
-      case 'done':
-        this.#settle(event)
-        return
-      case 'unsolicited':
-        tell(this.#options.onUnsolicited, event.frame)
-        return
-      case 'stale':
-        // Too late for its request, but the PLC is alive.
-        this.#silent = 0
-        this.#counters.add('stale')
-        return
-      case 'renew':
-        this.#renew(event.reason)
-        return
-      case 'drop':
-        if (event.error instanceof ProtocolError) this.#counters.add('protocolErrors')
-        this.#lost(event.error)
-        return
-      default:
-        event satisfies never
-    }
-  }
-
-  /** Where the local port is fixed a late answer can still arrive, so after a timeout it must rest: see #restOfPort. */
-  #renew(reason: 'answered' | 'givenUp'): void {
-    if (this.#transport?.renew() === true || reason === 'answered') return
-    this.#lost(failure.quarantine(this.#peer()))
-  }
-
-  #settle({ job, outcome, sentAt }: Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>): void {
-    if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
-    else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
-    // `disconnected` is met by #settleLost and #closeCalls only.
-    else if (outcome.kind === 'failed') job.fail(outcome.error)
-  }
-
-  #answered(job: Call<Head>, frame: ResponseFrame<Head>, sentAt: number | undefined): void {
-    const isProbe = job === this.#probe
-    this.#silent = 0
-    const error = job.answer(frame)
-    if (!isProbe) {
-      this.#counters.add('answered')
-      if (error instanceof EndCodeError) this.#counters.add('refused')
-      if (sentAt !== undefined) this.#counters.roundTrip(this.#clock.now() - sentAt)
-    }
-    if (error !== undefined && endsConnection(error, this.#options.framing.correlation)) {
-      this.#counters.add('protocolErrors')
-      this.#lost(error)
-    } else if (isProbe) this.#verified()
-    else this.#supervisor.proved()
-  }
-
-  #timedOut(job: Call<Head>, sent: boolean): void {
-    const isProbe = job === this.#probe
-    if (sent && !job.exchange.answered) {
-      this.#takeAsDone(job)
-      // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.
-      this.#lost(failure.reset(this.#peer()))
-      return
-    }
-    if (!isProbe) this.#counters.add('timeouts')
-    if (!sent) {
-      job.fail(failure.notSentInTime(job.exchange.title))
-      return
-    }
-    const causes = this.#causes()
-    const error = failure.noAnswer(job.exchange.title, this.#peer(), causes)
-    job.fail(error)
-    this.#silent += 1
-    // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
-    if (isProbe || this.#silent >= SILENT_REQUESTS) this.#lost(failure.silent(this.#peer(), causes, error))
+  /** A call on a connection that is gone. What was sent is never sent again; the rest may wait for the next one. */
+  #handedBack(call: Call<Head>, sent: boolean, reason: PlcError): void {
+    const { title, answered } = call.exchange
+    if (sent && !answered && failure.isSuccessOfReset(reason)) takeAsDone(call)
+    else if (sent) call.fail(failure.lostInFlight(title, reason))
+    else if (this.#supervisor.hopeful) this.#held.push(call)
+    else call.fail(failure.offline(title, reason))
   }
 
   /** A call that waited for the connection in vain. */
   #notConnected(call: Call<Head>): void {
     if (call.sends) this.#counters.add('timeouts')
-    const open = this.#session !== undefined
-    const attempt = { peer: this.#peer(), open, causes: open ? this.#causes() : [], reason: this.#supervisor.error }
+    const { peer = 'the PLC', isOpen: open = false } = this.#line ?? {}
+    const attempt = { peer, open, causes: open ? this.#owner.causes(peer) : [], reason: this.#supervisor.error }
     call.fail(failure.notConnectedInTime(call.sends ? call.exchange.title : undefined, attempt))
-  }
-
-  #peer(): string {
-    return this.#transport?.description ?? 'the PLC'
-  }
-
-  #causes(): readonly string[] {
-    return this.#options.explainSilence({ peer: this.#peer(), answeredBefore: this.#answeredBefore })
   }
 
   #tellState(): void {
@@ -465,18 +245,11 @@ export class Connection<Head> {
   }
 
   #schedule(): void {
-    if (this.#supervisor.name !== 'closed') this.#alarm.set(this.#nextTimeout())
-  }
-
-  #nextTimeout(): number | undefined {
-    let due = this.#session?.nextTimeout()
-    const earlier = (time: number | undefined) => {
-      if (time !== undefined && (due === undefined || time < due)) due = time
-    }
-    earlier(this.#supervisor.nextAttempt)
-    earlier(this.#attemptDeadline)
-    for (const call of this.#held) earlier(call.deadline)
-    return due
+    if (this.#supervisor.name === 'closed') return
+    let due = this.#line?.nextTimeout() ?? Number.POSITIVE_INFINITY
+    due = Math.min(due, this.#supervisor.nextAttempt ?? Number.POSITIVE_INFINITY)
+    for (const call of this.#held) due = Math.min(due, call.deadline)
+    this.#alarm.set(due)
   }
 
   #timeout(): void {
@@ -485,12 +258,8 @@ export class Connection<Head> {
       this.#held.splice(this.#held.indexOf(call), 1)
       this.#notConnected(call)
     }
-    if (this.#attemptDeadline !== undefined && this.#attemptDeadline <= now) {
-      this.#lost(failure.connectTimedOut(this.#peer(), this.#options.connectTimeout))
-    }
     if (this.#supervisor.timeout(now)) this.#open()
-    this.#session?.timeout(now)
-    this.#flush()
+    this.#line?.timeout(now)
     this.#schedule()
   }
 }

@@ -1,0 +1,289 @@
+// One attempt to connect and the connection it becomes: a transport, a session, and the first request that proves it.
+import { type ConnectionError, EndCodeError, endsConnection, type PlcError, ProtocolError } from '../errors'
+import { type ResponseFrame, type SerialNumbers, Session, type SessionEvent } from '../link/link'
+import type { Transport } from '../transport/transport'
+import { Call } from './call'
+import type { ConnectionOptions, TracedFrame } from './connection-options'
+import * as failure from './failure'
+import type { Counters } from './statistics'
+import { tell } from './tell'
+
+/** Requests without any answer in a row after which the connection counts as dead, although nobody closed it. */
+const SILENT_REQUESTS = 2
+
+/** What a line needs of the connection it is a part of. */
+export interface LineOwner {
+  readonly counters: Counters
+  readonly serials: SerialNumbers
+  /** The PLC has answered the first request. */
+  verified(): void
+  /** The PLC has answered a request of the program. */
+  proved(): void
+  /** The line is of no use any more: the owner ends it. */
+  lost(error: PlcError): void
+  /** Something is due at another time than before. */
+  schedule(): void
+  trace(direction: TracedFrame['direction'], bytes: Buffer): void
+  /** Ranked causes of a silence of this peer. */
+  causes(peer: string): readonly string[]
+}
+
+type Done<Head> = Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>
+
+export class Line<Head> {
+  readonly #options: ConnectionOptions<Head>
+  readonly #owner: LineOwner
+  #transport: Transport | undefined
+  #session: Session<Head, Call<Head>> | undefined
+  #probe: Call<Head> | undefined
+  #openBy: number | undefined
+  #silent = 0
+  #receivedAnything = false
+  #ended = false
+
+  constructor(options: ConnectionOptions<Head>, owner: LineOwner) {
+    this.#options = options
+    this.#owner = owner
+  }
+
+  /** Whether bytes can be sent; the PLC need not have answered yet. */
+  get isOpen(): boolean {
+    return this.#session !== undefined
+  }
+
+  get peer(): string {
+    return this.#transport?.description ?? 'the PLC'
+  }
+
+  get queued(): number {
+    return this.#session?.queued ?? 0
+  }
+
+  get inFlight(): number {
+    return this.#session?.inFlight ?? 0
+  }
+
+  /** @throws what the transport throws when it cannot be made or opened */
+  open(): void {
+    const { clock, connectTimeout, openTransport } = this.#options
+    this.#openBy = clock.now() + connectTimeout
+    const transport = openTransport()
+    this.#transport = transport
+    transport.open({
+      opened: () => this.#guard(() => this.#opened(transport)),
+      received: (bytes) => this.#guard(() => this.#received(bytes)),
+      closed: (error) => this.#guard(() => this.#closed(error)),
+    })
+  }
+
+  /**
+   * For what the transport calls. One that was given up may still have a callback under way, which is not listened to.
+   * Anything that is thrown is a bug of this package; the machine beside us must not lose its program to it.
+   */
+  #guard(run: () => void): void {
+    if (this.#ended) return
+    try {
+      run()
+    } catch (error) {
+      this.#lost(failure.asPlcError(error))
+    }
+  }
+
+  #lost(error: PlcError): void {
+    if (!this.#ended) this.#owner.lost(error)
+  }
+
+  #opened(transport: Transport): void {
+    const { framing, inFlight, timeout, connectTimeout, clock, probe } = this.#options
+    const { serials } = this.#owner
+    const now = clock.now()
+    this.#openBy = undefined
+    this.#session = new Session<Head, Call<Head>>(framing, { kind: transport.kind, window: inFlight, serials })
+    const exchange = probe()
+    // Nobody awaits the probe; how it ends is seen in #answered and #timedOut.
+    this.#probe = new Call(exchange, now + Math.min(timeout, connectTimeout), {
+      answer: (frame) => {
+        if (frame !== undefined) exchange.decode(frame)
+      },
+      fail: () => {},
+    })
+    this.submit(this.#probe)
+    this.flush()
+  }
+
+  #received(bytes: Buffer): void {
+    this.#receivedAnything = true
+    this.#owner.counters.add('bytesReceived', bytes.length)
+    this.#owner.trace('received', bytes)
+    if (this.#ended) return
+    this.#session?.receive(bytes, this.#options.clock.now())
+    this.flush()
+  }
+
+  #closed(error: ConnectionError | undefined): void {
+    this.#lost(error ?? failure.closedByPeer(this.peer, this.#receivedAnything))
+  }
+
+  /** Sends it when its turn comes. `flush` afterwards. */
+  submit(call: Call<Head>): void {
+    this.#session?.submit(call, this.#options.clock.now())
+  }
+
+  /** Gives a call up. `flush` afterwards. @returns whether it had been sent; `undefined` when it is not known here */
+  abandon(call: Call<Head>): boolean | undefined {
+    return this.#session?.abandon(call, this.#options.clock.now())
+  }
+
+  /** Takes what the session has to say, then what it has to send, until it is quiet. */
+  flush(): void {
+    const session = this.#session
+    if (session === undefined) return
+    for (let event = session.poll(); event !== undefined; event = session.poll()) {
+      this.#take(event)
+      if (this.#ended) return
+    }
+    for (let bytes = session.transmit(); bytes !== undefined; bytes = session.transmit()) {
+      this.#send(bytes)
+      if (this.#ended) return
+    }
+    this.#owner.schedule()
+  }
+
+  nextTimeout(): number | undefined {
+    return this.#openBy ?? this.#session?.nextTimeout()
+  }
+
+  timeout(now: number): void {
+    if (this.#openBy !== undefined && this.#openBy <= now) {
+      this.#lost(failure.connectTimedOut(this.peer, this.#options.connectTimeout))
+      return
+    }
+    this.#session?.timeout(now)
+    this.flush()
+  }
+
+  /**
+   * How long the local port must be left alone: where it is fixed a late answer still arrives on it, and without a
+   * serial number it would be taken for the next one. ms
+   */
+  restOfPort(): number {
+    const { framing, timeout } = this.#options
+    if (this.#session === undefined || this.#transport?.kind !== 'datagram' || framing.correlation === 'serial')
+      return 0
+    try {
+      return this.#transport.renew() ? 0 : timeout
+    } catch {
+      // Closed by the system, because nothing receives on the PLC's port: then nothing answers from there either.
+      return 0
+    }
+  }
+
+  /** Ends it, and everything on it: what has no answer is handed back with whether it had been sent. */
+  end(handBack: (call: Call<Head>, sent: boolean) => void): void {
+    if (this.#ended) return
+    this.#ended = true
+    this.#transport?.close()
+    const session = this.#session
+    session?.disconnected()
+    for (let event = session?.poll(); event !== undefined; event = session?.poll()) {
+      if (event.kind === 'drop' || event.kind === 'renew') continue
+      // An answer that arrived just before is one all the same.
+      if (event.kind !== 'done' || event.outcome.kind !== 'disconnected') this.#take(event)
+      else if (event.job !== this.#probe) handBack(event.job, event.outcome.sent)
+    }
+  }
+
+  #send(bytes: Buffer): void {
+    this.#owner.counters.add('bytesSent', bytes.length)
+    this.#owner.trace('sent', bytes)
+    if (!this.#ended) this.#transport?.send(bytes)
+  }
+
+  #take(event: SessionEvent<Head, Call<Head>>): void {
+    const { counters } = this.#owner
+    switch (event.kind) {
+      case 'done':
+        this.#settle(event)
+        return
+      case 'unsolicited':
+        tell(this.#options.onUnsolicited, event.frame)
+        return
+      case 'stale':
+        // Too late for its request, but the PLC is alive.
+        this.#silent = 0
+        counters.add('stale')
+        return
+      case 'renew':
+        this.#renew(event.reason)
+        return
+      case 'drop':
+        if (event.error instanceof ProtocolError) counters.add('protocolErrors')
+        this.#lost(event.error)
+        return
+      default:
+        event satisfies never
+    }
+  }
+
+  /** Where the local port is fixed a late answer can still arrive, so after a timeout it must rest: see `restOfPort`. */
+  #renew(reason: 'answered' | 'givenUp'): void {
+    if (this.#transport?.renew() === true || reason === 'answered') return
+    this.#lost(failure.quarantine(this.peer))
+  }
+
+  #settle({ job, outcome, sentAt }: Done<Head>): void {
+    if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
+    else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
+    // `disconnected` is met by `end` only.
+    else if (outcome.kind === 'failed') job.fail(outcome.error)
+  }
+
+  #answered(job: Call<Head>, frame: ResponseFrame<Head>, sentAt: number | undefined): void {
+    const { counters } = this.#owner
+    const isProbe = job === this.#probe
+    this.#silent = 0
+    const error = job.answer(frame)
+    if (!isProbe) {
+      counters.add('answered')
+      if (error instanceof EndCodeError) counters.add('refused')
+      if (sentAt !== undefined) counters.roundTrip(this.#options.clock.now() - sentAt)
+    }
+    if (error !== undefined && endsConnection(error, this.#options.framing.correlation)) {
+      counters.add('protocolErrors')
+      this.#lost(error)
+    } else if (this.#ended) return
+    else if (isProbe) this.#verified()
+    else this.#owner.proved()
+  }
+
+  #verified(): void {
+    this.#probe = undefined
+    this.#owner.verified()
+  }
+
+  #timedOut(job: Call<Head>, sent: boolean): void {
+    const isProbe = job === this.#probe
+    if (sent && !job.exchange.answered) {
+      takeAsDone(job)
+      // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.
+      this.#lost(failure.reset(this.peer))
+      return
+    }
+    if (!isProbe) this.#owner.counters.add('timeouts')
+    if (!sent) {
+      job.fail(failure.notSentInTime(job.exchange.title))
+      return
+    }
+    const causes = this.#owner.causes(this.peer)
+    const error = failure.noAnswer(job.exchange.title, this.peer, causes)
+    job.fail(error)
+    this.#silent += 1
+    // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
+    if (isProbe || this.#silent >= SILENT_REQUESTS) this.#lost(failure.silent(this.peer, causes, error))
+  }
+}
+
+/** A command that is not answered when it succeeds (Remote Reset): silence and a lost connection are its success. */
+export function takeAsDone<Head>(call: Call<Head>): void {
+  call.answer({ head: call.head, serial: undefined, endCode: 0, body: Buffer.alloc(0) })
+}
