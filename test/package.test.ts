@@ -189,6 +189,7 @@ describe('in a user directory of Node-RED', () => {
       typeof entry === 'string' ? entry : entry.fn,
     )
     const flows = filesBelow('examples', '.json').map((path) => path.split('/')[1]?.replace(/\.json$/, ''))
-    expect(offered.sort()).toEqual([...new Set(flows)].sort())
+    // `examples/library` holds programs, which the package does not carry; in the repository it is an empty menu.
+    expect(offered.filter((name) => name !== 'library').sort()).toEqual([...new Set(flows)].sort())
   })
 })
