@@ -1,35 +1,52 @@
 // Several frames on one port, told apart by their subheaders, as Ethernet ports of PLCs do it.
-import type { DataCode } from '../codec/codec'
+import { type DataCode, failAt, uintAt } from '../codec/codec'
 import { PlcError } from '../errors'
-import type { Framing, RequestFrame, Scanned } from '../link/link'
+import type { BodyLength, Framing, RequestFrame, Scanned } from '../link/link'
+import { frame1e, type Head1e } from '../melsec/frame-1e'
 import { frame3e, type Head3e } from '../melsec/frame-3e'
 import type { FrameName } from '../melsec/profile'
 
+/** Frames a port can take: those of the SLMP set, and 1E with its own. */
+export type PortFrame = FrameName | '1E'
+
 /** A head that says in which frame it came, so that the answer goes out in the same one. */
-export interface AnyHead {
-  readonly frame: FrameName
-  readonly head: Head3e
-}
+export type AnyHead =
+  | { readonly frame: FrameName; readonly head: Head3e }
+  | { readonly frame: '1E'; readonly head: Head1e }
+
+/** Subheaders of 1E requests go up to this; those of 3E and 4E are 50 and 54. */
+const LAST_COMMAND_1E = 0x1f
 
 /**
  * Framing of a port that takes all of `frames`. One per connection: it looks first for the frame that came last.
- * `unreadable` is told of bytes that are none of them; nothing answers those.
+ * `unreadable` is told of bytes that are none of them; nothing answers those. `length1e`: where a 1E request ends.
  */
 export function anyFrame(
-  frames: readonly FrameName[],
+  frames: readonly PortFrame[],
   code: DataCode,
   unreadable: (bytes: Buffer) => void,
+  length1e: BodyLength<Head1e> = () => undefined,
 ): Framing<AnyHead> {
   const framings = { '3E': frame3e('3E', code), '4E': frame3e('4E', code) } satisfies Record<FrameName, unknown>
+  const aCompatible = frame1e(code)
+  const read = (name: PortFrame, bytes: Buffer): Scanned<RequestFrame<AnyHead>> | undefined => {
+    if (name === '1E') {
+      check1e(bytes, code)
+      const scanned = aCompatible.request.scan(bytes, length1e)
+      return scanned && { ...scanned, frame: { ...scanned.frame, head: { frame: name, head: scanned.frame.head } } }
+    }
+    const scanned = framings[name].request.scan(bytes, () => undefined)
+    return scanned && { ...scanned, frame: { ...scanned.frame, head: { frame: name, head: scanned.frame.head } } }
+  }
   let candidates = frames
   const scan = (bytes: Buffer): Scanned<RequestFrame<AnyHead>> | undefined => {
     let failure: unknown
     for (const frame of candidates) {
       try {
-        const scanned = framings[frame].request.scan(bytes, () => undefined)
+        const scanned = read(frame, bytes)
         if (scanned === undefined) return undefined
         if (frame !== candidates[0]) candidates = [frame, ...frames.filter((other) => other !== frame)]
-        return { used: scanned.used, frame: { ...scanned.frame, head: { frame, head: scanned.frame.head } } }
+        return scanned
       } catch (error) {
         if (!(error instanceof PlcError)) throw error
         failure = error
@@ -42,13 +59,26 @@ export function anyFrame(
     name: frames.join('/'),
     correlation: 'order',
     request: {
-      write: ({ frame, head }, serial, body) => framings[frame].request.write(head, serial, body),
+      write: (any, serial, body) =>
+        any.frame === '1E'
+          ? aCompatible.request.write(any.head, serial, body)
+          : framings[any.frame].request.write(any.head, serial, body),
       scan,
     },
     response: {
-      write: ({ frame, head }, serial, endCode, body) => framings[frame].response.write(head, serial, endCode, body),
+      write: (any, serial, endCode, body) =>
+        any.frame === '1E'
+          ? aCompatible.response.write(any.head, serial, endCode, body)
+          : framings[any.frame].response.write(any.head, serial, endCode, body),
       scan: () => undefined,
     },
     mismatch: () => undefined,
   }
+}
+
+/** Before the head is whole: the first byte (two characters) tells 1E from the other frames. */
+function check1e(bytes: Buffer, code: DataCode): void {
+  const ascii = code === 'ascii'
+  if (bytes.length < (ascii ? 2 : 1)) return
+  if (uintAt(bytes, 0, 1, ascii) > LAST_COMMAND_1E) failAt('BAD_FRAME', 0, bytes, 'the subheader is not one of 1E')
 }

@@ -2,18 +2,16 @@
 import type { Effect } from '../codec/codec'
 import { Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
-import type { FrameName } from '../melsec/profile'
-import type { MelsecProtocol } from '../melsec/protocol'
 import { ownStation } from '../melsec/route'
 import type { Clock } from '../transport/clock'
 import type { ServerConnection } from '../transport/transport'
-import { type AnyHead, anyFrame } from './any-frame'
+import { type AnyHead, anyFrame, type PortFrame } from './any-frame'
 import { routeRefusal } from './check'
 import type { FaultSubject, Faults } from './faults'
 import type { Call } from './handlers'
 import type { Answer, Plc } from './plc'
 import { Refusal, requestErrors } from './refusal'
-import { type Received, receive } from './request'
+import { type Ports, type Received, receive } from './request'
 import { Sequence, type Step } from './sequence'
 import type { Counters } from './statistics'
 
@@ -22,7 +20,7 @@ export interface RequestEvent {
   readonly connection: number
   /** The client, e.g. `127.0.0.1:50231`. */
   readonly remote: string
-  readonly frame: FrameName
+  readonly frame: PortFrame
   /** Name of the command; undefined when it is none that is declared, or its data are wrong. */
   readonly command: CommandName | undefined
   readonly effect: Effect | undefined
@@ -38,8 +36,8 @@ export type HeldAnswers = { readonly until: 'request' | 'answer'; readonly send:
 /** What the connections of one simulated PLC share. */
 export interface Shared {
   readonly plc: Plc
-  readonly protocol: MelsecProtocol<AnyHead>
-  readonly frames: readonly FrameName[]
+  readonly ports: Ports
+  readonly frames: readonly PortFrame[]
   readonly faults: Faults
   readonly clock: Clock
   /** ms from a request to the END processing that answers it, in RUN. */
@@ -85,7 +83,8 @@ export class Connection {
     this.#peer = peer
     this.#call = shared.plc.callOf({ owner, monitored: undefined })
     this.since = shared.clock.time()
-    const framing = anyFrame(shared.frames, shared.protocol.code, (bytes) => this.#unreadable(bytes))
+    const { slmp, aCompatible } = shared.ports
+    const framing = anyFrame(shared.frames, slmp.code, (bytes) => this.#unreadable(bytes), aCompatible.lengthOf)
     this.#responder = new Responder(framing, kind, () => undefined)
     const { datagramBuffer } = shared
     this.#sequence = new Sequence(shared.clock, (change) => {
@@ -114,7 +113,7 @@ export class Connection {
 
   #receive(bytes: Buffer): void {
     this.#shared.counters.bytesReceived += bytes.length
-    for (const frame of this.#responder.receive(bytes)) this.#arrive(receive(this.#shared.protocol, frame))
+    for (const frame of this.#responder.receive(bytes)) this.#arrive(receive(this.#shared.ports, frame))
   }
 
   /** Another frame or data code: only the PLC's own error log tells (FX5 communication manual 47.4, C06F). */
@@ -157,19 +156,19 @@ export class Connection {
   }
 
   #answer(work: Work): readonly Step[] {
-    const { faults, plc, protocol, counters } = this.#shared
+    const { faults, plc, ports, counters } = this.#shared
     const { received } = work
     const forced = faults.take('endCode', work)
     const answer: Answer =
       forced === undefined
-        ? plc.answer(protocol, received, this.#call)
+        ? plc.answer(ports, received, this.#call)
         : { kind: 'refused', endCode: forced.endCode, message: 'fault switch' }
     this.#observe(received, answer)
     if (answer.kind === 'none') return NOTHING
     if (answer.kind === 'data') return this.#deliver(this.#frame(work, 0, answer.body), work)
     counters.refusals++
     this.#log(answer.endCode, answer.message)
-    return this.#deliver(this.#frame(work, answer.endCode, this.#errorInformation(work)), work)
+    return this.#deliver(this.#frame(work, answer.endCode, this.#errorInformation(work, answer)), work)
   }
 
   #observe({ frame, request }: Received, answer: Answer): void {
@@ -186,12 +185,13 @@ export class Connection {
   }
 
   /** The station that refuses is this one, whichever was asked. */
-  #errorInformation(work: Work): Buffer {
-    const { protocol, plc, faults } = this.#shared
+  #errorInformation(work: Work, { endCode, abnormal }: Answer & { kind: 'refused' }): Buffer {
+    const { ports, plc, faults } = this.#shared
     const { frame, command, subcommand } = work.received
+    if (frame.head.frame === '1E') return ports.aCompatible.errorBody(endCode, abnormal)
     const { route } = frame.head.head
     const station = routeRefusal(plc.profile, route) === undefined ? route : ownStation
-    const body = protocol.writeErrorInformation({ ...station, command, subcommand })
+    const body = ports.slmp.writeErrorInformation({ ...station, command, subcommand })
     const short = faults.take('shortError', work)
     return short === undefined ? body : body.subarray(0, short.bytes)
   }
@@ -203,8 +203,8 @@ export class Connection {
       const wrong = faults.take('wrongSerial', work)
       if (wrong !== undefined) frame = { ...frame, serial: (frame.serial + wrong.add) & 0xffff }
     }
-    const elsewhere = faults.take('wrongRoute', work)
-    if (elsewhere !== undefined) {
+    const elsewhere = frame.head.frame === '1E' ? undefined : faults.take('wrongRoute', work)
+    if (elsewhere !== undefined && frame.head.frame !== '1E') {
       const { head } = frame.head
       frame = { ...frame, head: { ...frame.head, head: { ...head, route: { ...head.route, ...elsewhere } } } }
     }

@@ -1,10 +1,12 @@
 // What a simulated PLC is made of: options, their defaults and their checks.
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
+import { type OddBits, takes1e } from '../melsec/a-compatible-rules'
 import { type DeviceName, findDevice } from '../melsec/device'
 import { modelOf } from '../melsec/model-code'
-import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
+import { type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
 import { type Clock, realClock } from '../transport/clock'
+import type { PortFrame } from './any-frame'
 import type { Call } from './handlers'
 import type { ExtensionMemory } from './memory'
 
@@ -20,12 +22,14 @@ export interface PlcSimulatorOptions {
   readonly profileOverrides?: ProfileOverrides
   /** Communication data code of the port. The other one is answered by silence. Default `binary`. */
   readonly code?: DataCode
-  /** Frames the port takes, told apart by their subheaders. Default: all of the profile. */
-  readonly frames?: readonly FrameName[]
+  /** Frames the port takes, told apart by their subheaders. Default: all of the profile; iq-f also takes 1E. */
+  readonly frames?: readonly PortFrame[]
   /** ASCII code on a family with octal X and Y: the port's setting. Default `octal` there. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** ASCII code: digits of ZR. Default `decimal`. */
   readonly asciiZr?: 'decimal' | 'hexadecimal'
+  /** 1E in ASCII code: whether a dummy character follows an odd number of bits. Default `exact`: the manual has none. */
+  readonly oddBits?: OddBits
   /** Address to listen on. Default 127.0.0.1, so that nothing is offered to a network unasked. */
   readonly host?: string
   /** `false`: no TCP. Default: any free port. */
@@ -62,9 +66,10 @@ export interface PlcSimulatorOptions {
 export interface Settings {
   readonly profile: Profile
   readonly code: DataCode
-  readonly frames: readonly FrameName[]
+  readonly frames: readonly PortFrame[]
   readonly asciiXy: 'octal' | 'hexadecimal'
   readonly asciiZr: 'decimal' | 'hexadecimal'
+  readonly oddBits: OddBits
   readonly host: string
   readonly tcp: PortOptions | false
   readonly udp: PortOptions | false
@@ -107,6 +112,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
       'hexadecimal',
     ]),
     asciiZr: oneOf('asciiZr', options.asciiZr ?? 'decimal', ['decimal', 'hexadecimal']),
+    oddBits: oneOf('oddBits', options.oddBits ?? 'exact', ['exact', 'padded']),
     host: options.host ?? '127.0.0.1',
     tcp: options.tcp ?? {},
     udp: options.udp ?? {},
@@ -133,9 +139,11 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
   return settings
 }
 
-function framesOf(profile: Profile, frames: readonly FrameName[] = profile.frames): readonly FrameName[] {
+function framesOf(profile: Profile, given: readonly PortFrame[] | undefined): readonly PortFrame[] {
+  const all: readonly PortFrame[] = [...profile.frames, ...(takes1e(profile) ? (['1E'] as const) : [])]
+  const frames = given ?? all
   if (frames.length === 0) bad('frames', 'A port takes at least one frame.')
-  return frames.map((frame) => oneOf('frames', frame, profile.frames))
+  return frames.map((frame) => oneOf('frames', frame, all))
 }
 
 function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['model'] {

@@ -1,6 +1,7 @@
 // The PLC behind the wire: what it answers to a request, without frames, connections or time.
 import type { CommandName } from '../melsec/commands/commands'
 import type { DeviceName } from '../melsec/device'
+import type { Head3e } from '../melsec/frame-3e'
 import type { Profile } from '../melsec/profile'
 import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
 import type { AnyHead } from './any-frame'
@@ -11,12 +12,12 @@ import { type Call, type Caller, type Handler, handlers } from './handlers'
 import { DeviceMemory, type ExtensionMemory } from './memory'
 import { ProgramMemory } from './program-memory'
 import { Refusal } from './refusal'
-import type { Received } from './request'
+import type { Ports, Received } from './request'
 
 /** The answer to a request: response data, an end code, or nothing at all. */
 export type Answer =
   | { readonly kind: 'data'; readonly body: Buffer }
-  | { readonly kind: 'refused'; readonly endCode: number; readonly message: string }
+  | { readonly kind: 'refused'; readonly endCode: number; readonly message: string; readonly abnormal?: number }
   | { readonly kind: 'none' }
 
 export interface PlcParts {
@@ -69,22 +70,36 @@ export class Plc {
   }
 
   /** Carries a request out. */
-  answer(protocol: MelsecProtocol<AnyHead>, { frame, request }: Received, call: Call): Answer {
+  answer(ports: Ports, received: Received, call: Call): Answer {
+    const { head } = received.frame
     try {
-      const wrongRoute = routeRefusal(this.profile, frame.head.head.route)
-      if (wrongRoute !== undefined) {
-        if (this.#otherStations === 'silence') return { kind: 'none' }
-        throw wrongRoute
-      }
-      if (request instanceof Refusal) throw request
-      checkRequest(this.profile, protocol.code, request)
-      // What clients write to the system's devices does not stay there.
-      this.#refreshSystemDevices()
-      return this.#carryOut(protocol, request, call)
+      return head.frame === '1E' ? this.#answer1e(received, call) : this.#answer(ports.slmp, head.head, received, call)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      return { kind: 'refused', endCode: error.endCode, message: error.message }
+      const { endCode, message, abnormal } = head.frame === '1E' ? ports.aCompatible.refusalOf(error) : error
+      return { kind: 'refused', endCode, message, ...(abnormal === undefined ? {} : { abnormal }) }
     }
+  }
+
+  #answer(protocol: MelsecProtocol<AnyHead>, { route }: Head3e, { request }: Received, call: Call): Answer {
+    const wrongRoute = routeRefusal(this.profile, route)
+    if (wrongRoute !== undefined) {
+      if (this.#otherStations === 'silence') return { kind: 'none' }
+      throw wrongRoute
+    }
+    if (request instanceof Refusal) throw request
+    checkRequest(this.profile, protocol.code, request)
+    // What clients write to the system's devices does not stay there.
+    this.#refreshSystemDevices()
+    return this.#carryOut(protocol, request, call)
+  }
+
+  /** Limits and devices were checked where the request was read: 1E has its own. */
+  #answer1e({ request, respond }: Received, call: Call): Answer {
+    if (request instanceof Refusal) throw request
+    if (respond === undefined) throw new TypeError('a 1E request without a way to answer')
+    this.#refreshSystemDevices()
+    return { kind: 'data', body: respond(handle(request.name, request.message, call)) }
   }
 
   /** Power goes off: everything that is not latched is lost. */

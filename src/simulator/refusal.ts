@@ -7,6 +7,8 @@ export class Refusal extends Error {
     readonly endCode: number,
     /** For the error log, for people. */
     message: string,
+    /** 1E: abnormal code behind end code 5B. */
+    readonly abnormal?: number,
   ) {
     super(message)
     this.name = 'Refusal'

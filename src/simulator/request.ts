@@ -6,9 +6,11 @@ import type { Command } from '../melsec/command'
 import { type CommandName, commands } from '../melsec/commands/commands'
 import { deviceAddress } from '../melsec/device-codec'
 import { FORM_BITS, readSubcommand } from '../melsec/form'
+import type { Head1e } from '../melsec/frame-1e'
 import { limitsOf } from '../melsec/limit'
 import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
 import { setReset } from '../melsec/set-reset'
+import type { ACompatiblePort } from './a-compatible-port'
 import type { AnyHead } from './any-frame'
 import { Refusal, requestErrors } from './refusal'
 
@@ -20,12 +22,33 @@ export interface Received {
   readonly subcommand: number
   /** The request, or why there is none. */
   readonly request: ReceivedRequest | Refusal
+  /** 1E: writes the data of the answer. */
+  readonly respond?: (response: Readonly<Record<string, unknown>>) => Buffer
+}
+
+/** The protocols of a port. */
+export interface Ports {
+  readonly slmp: MelsecProtocol<AnyHead>
+  readonly aCompatible: ACompatiblePort
 }
 
 /** Reads a frame; never throws for what a client can send. */
-export function receive(protocol: MelsecProtocol<AnyHead>, frame: RequestFrame<AnyHead>): Received {
+export function receive({ slmp: protocol, aCompatible }: Ports, frame: RequestFrame<AnyHead>): Received {
+  if (frame.head.frame === '1E') return receive1e(aCompatible, frame, frame.head.head)
   const { command, subcommand } = codesOf(protocol, frame.body)
   return { frame, command, subcommand, request: requestOf(protocol, frame, command, subcommand) }
+}
+
+function receive1e(port: ACompatiblePort, frame: RequestFrame<AnyHead>, head: Head1e): Received {
+  const known = { frame, command: head.command, subcommand: 0 }
+  try {
+    const { name, message, respond } = port.read({ ...frame, head })
+    const request: ReceivedRequest = { name, command: commands[name], message, form: 'short', subcommand: 0 }
+    return { ...known, request, respond }
+  } catch (error) {
+    if (error instanceof Refusal) return { ...known, request: error }
+    throw error
+  }
 }
 
 function codesOf(protocol: MelsecProtocol<AnyHead>, body: Buffer): { command: number; subcommand: number } {

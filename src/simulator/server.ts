@@ -10,7 +10,8 @@ import { listenUdp } from '../transport/listen-udp'
 import { listenMemory, type MemoryListener, type MemoryOptions } from '../transport/memory'
 import type { Listener, OpenTransport, ServerConnection } from '../transport/transport'
 import type { PlcValue, ValueFormat } from '../value/value'
-import { anyFrame } from './any-frame'
+import { ACompatiblePort } from './a-compatible-port'
+import { type AnyHead, anyFrame } from './any-frame'
 import { Connection, type RequestEvent, type Shared } from './connection'
 import type { Cpu, StateChange } from './cpu'
 import type { ErrorLog } from './error-log'
@@ -226,11 +227,11 @@ class Simulator implements PlcSimulator {
   }
 
   #share(): Shared {
-    const { profile, clock, code, frames, asciiXy, asciiZr, scanTime } = this.#settings
-    const protocol = new MelsecProtocol({
+    const { profile, clock, code, frames, asciiXy, asciiZr, oddBits, scanTime } = this.#settings
+    const slmp = new MelsecProtocol<AnyHead>({
       framing: anyFrame(frames, code, () => {}),
       // The head of requests; a PLC sends none.
-      head: { frame: profile.frame, head: { route: ownStation, timer: 0 } },
+      head: { frame: '3E', head: { route: ownStation, timer: 0 } },
       profile,
       code,
       asciiXy,
@@ -238,7 +239,7 @@ class Simulator implements PlcSimulator {
     })
     return {
       plc: this.#plc,
-      protocol,
+      ports: { slmp, aCompatible: new ACompatiblePort({ profile, code, asciiXy, oddBits }) },
       frames,
       faults: this.faults,
       clock,

@@ -28,7 +28,8 @@ describe.each(profileIds)('%s', (id) => {
     })
     void fc.assert(
       fc.property(fc.array(fc.oneof(request, damaged, bytes(60)), { maxLength: 6 }), (chunks) => {
-        const plc = createPlcSimulator({ profile: id, code, clock: manualClock() })
+        const { frames } = profiles[id]
+        const plc = createPlcSimulator({ profile: id, code, frames, clock: manualClock() })
         for (const kind of ['stream', 'datagram'] as const) {
           let received = Buffer.alloc(0)
           const transport = plc.connect({ kind, delivery: 'synchronous' })()

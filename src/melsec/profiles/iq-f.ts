@@ -175,6 +175,7 @@ export const iqF: Profile = {
     'At most 8 connections, shared with other protocols; own port 1 to 5548 or 5570 to 65534.',
     'Only the connected module is reached: network 0, station 255, module I/O 03FF, multidrop 0.',
     'The long form (0002/0003) does not exist: LCS, LCC and LCN need the extended long form (0082/0083) with all extension fields 0.',
+    '1E frames (FX5U and FX5UC from firmware 1.210, FX5UJ from 1.030, FX5S) reach X, Y, M, S, D, R, T, C and by other names SM8000 to SM8511, SD8000 to SD8511, LCS and LCN.',
     'Numbers of X and Y are octal in GX Works3; in ASCII code the port setting "ASCII (X, Y octal)" or "ASCII (X, Y hexadecimal)" decides what is sent.',
     'Remote latch clear: the manual prints 0000 for the fixed field, the SLMP manual 0001.',
   ],

@@ -1,0 +1,194 @@
+/**
+ * The 1E frame on a port: its requests in the terms of the handlers, their answers in its own. What the FX5 manual does
+ * not say about refusals is background: the troubleshooting chapter of the FX3U-ENET-ADP user's manual.
+ */
+import { type DataCode, writerOf } from '../codec/codec'
+import { PlcError } from '../errors'
+import type { HeadProtocol, NamedCommand, RequestFrame } from '../link/link'
+import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-compatible'
+import { aCompatibleProtocol } from '../melsec/a-compatible-protocol'
+import {
+  type ACompatibleFamily,
+  type ACompatibleFamilyId,
+  type ACompatibleProblem,
+  aCompatibleFamilies,
+  aCompatibleLimit,
+  aCompatibleProblem,
+  fromFrame,
+  type OddBits,
+} from '../melsec/a-compatible-rules'
+import type { CommandName } from '../melsec/commands/commands'
+import type { DeviceAddress } from '../melsec/device'
+import type { Head1e } from '../melsec/frame-1e'
+import type { Profile } from '../melsec/profile'
+import { Refusal } from './refusal'
+
+type Bag = Readonly<Record<string, unknown>>
+
+/** End codes of 1E. */
+const END = { command: 0x50, asciiConversion: 0x54, device: 0x56, points: 0x57, head: 0x58, cpu: 0x5b } as const
+/** Abnormal codes behind end code 5B. */
+const ABNORMAL = { pc: 0x10, remote: 0x18 } as const
+
+const END_CODES: Readonly<Record<ACompatibleProblem['kind'], number>> = {
+  device: END.device,
+  points: END.points,
+  range: END.points,
+  head: END.head,
+}
+
+/** Commands of 1E under the names the handlers have for them. */
+const HANDLED = {
+  readBits: 'readBits',
+  readWords: 'readWords',
+  writeBits: 'writeBits',
+  writeWords: 'writeWords',
+  writeRandomBits: 'writeRandomBits',
+  writeRandomWords: 'writeRandomWords',
+  remoteRun: 'remoteRun',
+  remoteStop: 'remoteStop',
+  readPcType: 'readTypeName',
+  loopback: 'selfTest',
+} as const satisfies Readonly<Record<ACompatibleCommandName, CommandName>>
+
+/** F3H: FX5 and FX3U alike (FX5 communication manual 39.4). */
+const TYPE_CODE = 0xf3
+const CONNECTED_STATION = 0xff
+
+/** A 1E request as the handlers take it. */
+export interface Translated {
+  readonly name: CommandName
+  readonly message: Bag
+  /** The data of the answer. */
+  readonly respond: (response: Bag) => Buffer
+}
+
+export interface ACompatiblePortOptions {
+  readonly profile: Profile
+  readonly code: DataCode
+  readonly asciiXy: 'octal' | 'hexadecimal'
+  readonly oddBits: OddBits
+}
+
+export class ACompatiblePort {
+  readonly #code: DataCode
+  readonly #profile: Profile
+  readonly #family: ACompatibleFamily
+  readonly #protocol: HeadProtocol<Head1e>
+
+  constructor({ profile, code, asciiXy, oddBits }: ACompatiblePortOptions) {
+    const family: ACompatibleFamilyId = 'iq-f'
+    this.#code = code
+    this.#profile = profile
+    this.#family = aCompatibleFamilies[family]
+    this.#protocol = aCompatibleProtocol({ code, asciiXy, oddBits, family })
+  }
+
+  /** Where a request ends. One that cannot be read ends with what has arrived: nothing else tells its end. */
+  readonly lengthOf = (head: Head1e, soFar: Buffer): number | undefined => {
+    try {
+      return this.#protocol.requestLength(head, soFar)
+    } catch (error) {
+      if (error instanceof PlcError) return soFar.length
+      throw error
+    }
+  }
+
+  /** @throws Refusal with an end code of 1E */
+  read(frame: RequestFrame<Head1e>): Translated {
+    const { command, message } = this.#request(frame)
+    if (frame.head.pc !== CONNECTED_STATION) {
+      throw new Refusal(END.cpu, `there is no station with PC No. ${frame.head.pc}`, ABNORMAL.pc)
+    }
+    const name = command.name as ACompatibleCommandName
+    return {
+      name: HANDLED[name],
+      message: this.#translated(name, message),
+      respond: (response) =>
+        this.#protocol.writeResponse(command, message, name === 'readPcType' ? { typeCode: TYPE_CODE } : response),
+    }
+  }
+
+  #request(frame: RequestFrame<Head1e>): { readonly command: NamedCommand; readonly message: Bag } {
+    const known = Object.values<NamedCommand>(aCompatibleCommands).some(({ code }) => code === frame.head.command)
+    if (!known) throw new Refusal(END.command, `there is no command ${frame.head.command} in 1E`)
+    try {
+      return this.#protocol.readRequest(frame)
+    } catch (error) {
+      if (!(error instanceof PlcError)) throw error
+      throw new Refusal(this.#endCodeOf(error, frame.body), error.message)
+    }
+  }
+
+  /** The device stands in front of everything else that can be wrong but the points of a random write. */
+  #endCodeOf(error: PlcError, body: Buffer): number {
+    if (error.code === 'BAD_DIGIT') return END.asciiConversion
+    if (error.code !== 'BAD_FIELD') return END.points
+    return body.length > 0 && /device code/.test(error.message) ? END.device : END.points
+  }
+
+  #translated(name: ACompatibleCommandName, message: Bag): Bag {
+    switch (name) {
+      case 'readBits':
+      case 'readWords':
+        return { ...message, head: this.#device(name, message.head as DeviceAddress, Number(message.points)) }
+      case 'writeBits':
+      case 'writeWords': {
+        const { length } = message.values as readonly unknown[]
+        return { ...message, head: this.#device(name, message.head as DeviceAddress, length) }
+      }
+      case 'writeRandomBits':
+        return { bits: this.#list(name, message.bits) }
+      case 'writeRandomWords':
+        return { words: this.#list(name, message.words), doubleWords: [] }
+      case 'remoteRun':
+        return { mode: 1, clearMode: 0 }
+      case 'remoteStop':
+      case 'readPcType':
+        return {}
+      case 'loopback':
+        return message
+      default:
+        return name satisfies never
+    }
+  }
+
+  #list(name: ACompatibleCommandName, elements: unknown): readonly Bag[] {
+    // The shape of the declaration: decoded by it.
+    const list = elements as readonly { readonly device: DeviceAddress }[]
+    const max = aCompatibleLimit(name, 'M') ?? 0
+    if (list.length > max) throw new Refusal(END.points, `${name}: ${list.length} devices, at most ${max}`)
+    return list.map((element) => ({ ...element, device: this.#device(name, element.device, 1) }))
+  }
+
+  #device(name: ACompatibleCommandName, address: DeviceAddress, points: number): DeviceAddress {
+    const { windows } = this.#family
+    const device = fromFrame(windows, address)
+    if (device === undefined) {
+      throw new Refusal(END.device, `1E does not reach ${address.device}${address.number}`)
+    }
+    const problem = aCompatibleProblem(windows, name, device, points)
+    if (problem !== undefined) throw new Refusal(END_CODES[problem.kind], problem.message)
+    return device
+  }
+
+  /** The refusal of a handler, whose end codes are those of the SLMP set, in 1E. */
+  refusalOf(refusal: Refusal): Refusal {
+    const { endCode, message } = refusal
+    if (endCode <= 0xff) return refusal
+    const { deviceName, deviceNumber, remote, notInStop } = this.#profile.refusals
+    if (endCode === remote || endCode === notInStop) return new Refusal(END.cpu, message, ABNORMAL.remote)
+    if (endCode === deviceNumber) return new Refusal(END.points, message)
+    return endCode === deviceName ? new Refusal(END.device, message) : new Refusal(END.cpu, message, ABNORMAL.pc)
+  }
+
+  /** What stands behind an end code. */
+  errorBody(endCode: number, abnormal: number = ABNORMAL.pc): Buffer {
+    const writer = writerOf(this.#code)
+    if (endCode === END.cpu) {
+      writer.uint(abnormal, 1)
+      if (this.#family.abnormalCodeLength === 2) writer.uint(0, 1)
+    }
+    return writer.take()
+  }
+}
