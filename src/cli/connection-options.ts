@@ -8,6 +8,7 @@ import {
   moduleIoNumbers,
   type ProfileId,
   profileIds,
+  profiles,
   RequestError,
   type ValueFormat,
 } from '../index'
@@ -49,7 +50,8 @@ const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullab
 const ENCODINGS = ['ascii', 'utf8', 'shift-jis', 'utf16'] as const satisfies readonly NonNullable<
   ValueFormat['encoding']
 >[]
-const FRAMES = ['3E', '4E'] as const satisfies readonly FrameName[]
+/** Every frame that any family has. */
+const FRAMES: readonly FrameName[] = [...new Set(Object.values(profiles).flatMap(({ frames }) => frames))].sort()
 
 /** A whole number of an option. */
 export function whole(min: number, max: number): (text: string) => number {
@@ -104,8 +106,9 @@ export const frameOption = (description: string) => choice('--frame <name>', des
 export function addConnectionOptions(command: Command): Command {
   command
     .optionsGroup('Which PLC:')
-    .addOption(
-      new Option('--plc <host:port>', 'address and port of the PLC, e.g. 192.168.3.39:5010').env('MELSEC_JW_PLC'),
+    .option(
+      '--plc <host:port>',
+      `address and port of the PLC, e.g. 192.168.3.39:5010; else ${VARIABLE} in the environment`,
     )
     .addOption(new Option('--host <host>', 'address of the PLC'))
     .addOption(
@@ -176,21 +179,33 @@ function moduleIo(text: string): number {
   throw new InvalidArgumentError('It is a hexadecimal number such as 3E1, or a name.')
 }
 
-/** Address and port; only both together say which PLC. */
+/** Names the PLC when no option does. */
+const VARIABLE = 'MELSEC_JW_PLC'
+
+/** Address and port: both from the options, or both from the environment, never one from each. */
 export function peerOf({ plc, host, port }: ConnectionOptions): { readonly host: string; readonly port: number } {
-  const given = plc === undefined ? {} : splitPeer(plc)
+  if (plc !== undefined && host !== undefined) throw badPeer('Give --plc or --host, not both.', 'plc')
+  const text = plc ?? (host === undefined && port === undefined ? process.env[VARIABLE] : undefined)
+  const given = text === undefined ? {} : splitPeer(text)
+  if (given.port !== undefined && port !== undefined) {
+    throw badPeer(`The port is given twice, as ${given.port} and as ${port}.`, 'port')
+  }
   const found = { host: host ?? given.host, port: port ?? given.port }
   if (found.host === undefined || found.host === '') {
-    throw new RequestError('BAD_OPTION', 'Which PLC? Give its address and port, e.g. --plc 192.168.3.39:5010.', 'host')
+    throw badPeer('Which PLC? Give its address and port, e.g. --plc 192.168.3.39:5010.', 'host')
   }
   if (found.port === undefined) {
-    throw new RequestError(
-      'BAD_OPTION',
-      `Which port of ${found.host}? Give the port of its SLMP (MC protocol) entry, e.g. --plc ${found.host}:5010.`,
+    const example = `--plc ${found.host}:5010`
+    throw badPeer(
+      `Which port of ${found.host}? Give the port of its SLMP (MC protocol) entry, e.g. ${example}.`,
       'port',
     )
   }
   return { host: found.host, port: found.port }
+}
+
+function badPeer(message: string, option: string): RequestError {
+  return new RequestError('BAD_OPTION', message, option)
 }
 
 /** `host`, `host:port`, `[IPv6]:port`, IPv6. */
@@ -200,7 +215,7 @@ function splitPeer(text: string): { readonly host?: string; readonly port?: numb
   if (digits === undefined) return { host }
   const port = Number(digits)
   if (port >= 1 && port <= 65535) return { host, port }
-  throw new RequestError('BAD_OPTION', `${digits} is not a port: 1 to 65535.`, 'port')
+  throw badPeer(`${digits} is not a port: 1 to 65535.`, 'port')
 }
 
 /** The client's options; `allow` is what the command itself needs. */

@@ -100,6 +100,8 @@ describe('identify', () => {
   test('the PLC may stand in the environment', async () => {
     const env = { MELSEC_JW_PLC: `127.0.0.1:${plc.tcp?.port}` }
     expect((await runWith({ env }, 'identify')).code).toBe(0)
+    // Half of it is never taken: the other half would be another PLC's.
+    expect((await runWith({ env }, 'identify', '--host', '127.0.0.1')).err).toMatch(/Which port of 127\.0\.0\.1\?/)
   })
 })
 
@@ -376,6 +378,9 @@ describe('wrong use', () => {
     [['read', 'D0'], /Which PLC\?.*--plc 192\.168\.3\.39:5010/],
     [['read', 'D0', '--plc', '127.0.0.1'], /Which port of 127\.0\.0\.1\?/],
     [['read', 'D0', '--plc', '127.0.0.1:99999'], /99999 is not a port/],
+    [['read', 'D0', '--plc', '127.0.0.1:1', '--host', '127.0.0.2'], /--plc or --host, not both/],
+    [['read', 'D0', '--plc', '127.0.0.1:1', '--port', '2'], /given twice, as 1 and as 2/],
+    [['read', 'D0', '--plc', '[::1]'], /Which port of ::1\?/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--port', 'x'], /whole number from 1 to 65535/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--profile', 'q9'], /iq-r, iq-f, q, l, generic/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--profile', 'iq-f', '--frame', '4E'], /has no 4E frame/],

@@ -3,6 +3,9 @@ import fc from 'fast-check'
 import { type AnnotatedRow, MASK } from '../../src/codec/annotate'
 import { declare, field, type Shape } from '../../src/codec/codec'
 import { ProtocolError, RequestError } from '../../src/errors'
+import type { NamedCommand } from '../../src/link/link'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible'
+import { aCompatibleProtocol } from '../../src/melsec/a-compatible-protocol'
 import type { Command } from '../../src/melsec/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import {
@@ -527,6 +530,20 @@ describe('1E frames', () => {
 
   test.each(frames.filter(({ side }) => side === 'request'))('$id: the data', (vector) => {
     expectMessage(explained(bytesOf(vector), { frame: '1E' }), vector.message)
+  })
+
+  test.each(vectorsOfKind('mc-ethernet-1e', 'responseData'))('$id: an answer with its request', (vector) => {
+    const protocol = aCompatibleProtocol({ code: vector.code, asciiXy: 'hexadecimal' })
+    const command: NamedCommand | undefined = Object.values(aCompatibleCommands).find(
+      ({ name }) => name === vector.command,
+    )
+    if (command === undefined) throw new Error(`no command ${vector.command}`)
+    const { head: asked, body } = protocol.exchange(command, vector.request)
+    const request = protocol.framing.request.write(asked, 0, body)
+    const bytes = protocol.framing.response.write(asked, 0, 0, bytesOf(vector))
+    const explanation = explained(bytes, { frame: '1E', request })
+    expect(explanation.command).toBe(vector.command)
+    expectMessage(explanation, vector.message)
   })
 
   test('an answer with its request, also one with an abnormal code or to another command', () => {
