@@ -50,7 +50,7 @@ describe('settings of a connection', () => {
       value?.startsWith("'") ? value.slice(1, -1) : JSON.parse(value ?? 'null'),
     ])
     expect(defaults.length).toBeGreaterThan(20)
-    const options = read({ ...Object.fromEntries(defaults), host: 'plc', profile: 'iq-r' })
+    const options = read({ ...Object.fromEntries(defaults), host: 'plc', port: '5007', profile: 'iq-r' })
     const { profile, ...settled } = createMelsecClient(options).options
     expect(profile).toBe('iq-r')
     expect(settled).toMatchObject({ host: 'plc', port: 5007, allowWrites: false, allowControl: false })
