@@ -47,6 +47,7 @@ export {
   RequestError,
   TimeoutError,
 } from './errors'
+export { explainJwFrame } from './jw/explain-frame'
 export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/address'
 export type { RequestOf, ResponseOf } from './melsec/command'
 export { type CommandName, type Commands, commands } from './melsec/commands/commands'

@@ -1,4 +1,4 @@
-import { type DataCode, explainFrame, formatExplanation, type ProfileId } from '../index'
+import { type DataCode, explainFrame, explainJwFrame, formatExplanation, type ProfileId } from '../index'
 import { bytesOfHex, bytesOfText } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addDigitOptions, choice, jsonOption, profileOption } from './connection-options'
@@ -11,13 +11,15 @@ const examples = [
   'decode D00000FFFF0300040000002A00 --request 500000FFFF03000C00100001040000640000A80100',
   "decode --text '500000FF03FF000018001004010000D*0001000001'",
   'decode --frame 1E 01FF0A00640000002044 0300',
+  'decode --frame JW 4700240000080400',
   'decode -            (reads the digits from the standard input)',
 ]
 
 type ExplainOptions = NonNullable<Parameters<typeof explainFrame>[1]>
 type Explanation = ReturnType<typeof explainFrame>
 
-interface DecodeOptions extends Pick<ExplainOptions, 'frame' | 'asciiXy' | 'asciiZr'> {
+interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr'> {
+  readonly frame?: (typeof FRAMES)[number]
   readonly request?: string
   readonly registration?: string
   readonly text?: boolean
@@ -26,20 +28,20 @@ interface DecodeOptions extends Pick<ExplainOptions, 'frame' | 'asciiXy' | 'asci
   readonly json?: boolean
 }
 
-const FRAMES = ['3E', '4E', '1E', '4C'] as const satisfies readonly ExplainOptions['frame'][]
+const FRAMES = ['3E', '4E', '1E', '4C', 'JW'] as const satisfies readonly (ExplainOptions['frame'] | 'JW')[]
 
 /** `melsec-jw decode` */
 export const decodeCommand: MakeCommand = (run) => {
   const command = newCommand('decode', 'explain a captured frame, field by field', examples)
     .description(
       'Explain a captured frame field by field: a request or a response, in 3E or 4E (told by the frame itself), 1E or ' +
-        '4C format 5 (to be said). What the values of a response mean is in its request: give that too.',
+        '4C format 5 or Sharp JW (to be said). What the values of a response mean is in its request: give that too.',
     )
     .argument('<hex...>', 'bytes of the frame as hexadecimal digits; - for the standard input')
     .option('--request <hex>', 'the request that the frame answers')
     .option('--registration <hex>', 'the Entry Monitor Device before it, when the frame answers an Execute Monitor')
     .option('--text', 'the arguments are the characters of frames in ASCII code, not hexadecimal digits')
-    .addOption(choice('--frame <name>', 'frame; 4C is format 5', FRAMES))
+    .addOption(choice('--frame <name>', 'frame; 4C is format 5, JW the commands of a Sharp JW-255CM', FRAMES))
     .addOption(choice('--code <code>', 'data code', ['binary', 'ascii']))
     .addOption(profileOption().default('generic'))
   addDigitOptions(command)
@@ -52,7 +54,9 @@ export const decodeCommand: MakeCommand = (run) => {
 async function decode(terminal: Terminal, texts: readonly string[], options: DecodeOptions): Promise<number> {
   const given = texts.length === 1 && texts[0] === '-' ? await terminal.input() : texts.join(' ')
   const bytes = (text: string, what: string) => (options.text === true ? bytesOfText(text) : bytesOfHex(text, what))
-  const frames = explainAll(bytes(given, 'the frame'), explainOptions(options, bytes))
+  const settings = explainOptions(options, bytes)
+  const explain = options.frame === 'JW' ? explainJwFrame : explainFrame
+  const frames = explainAll(bytes(given, 'the frame'), (rest) => explain(rest, settings))
   const wrong = frames.some(({ fault }) => fault !== undefined)
   if (options.json === true) terminal.out(json({ frames }))
   else terminal.out(frames.map(formatExplanation).join('\n\n'))
@@ -66,7 +70,7 @@ function explainOptions(options: DecodeOptions, bytes: (text: string, what: stri
   const { frame, code, profile, request, registration, asciiXy, asciiZr } = options
   return {
     profile,
-    ...(frame === undefined ? {} : { frame }),
+    ...(frame === undefined || frame === 'JW' ? {} : { frame }),
     ...(code === undefined ? {} : { code }),
     ...(asciiXy === undefined ? {} : { asciiXy }),
     ...(asciiZr === undefined ? {} : { asciiZr }),
@@ -76,11 +80,11 @@ function explainOptions(options: DecodeOptions, bytes: (text: string, what: stri
 }
 
 /** A capture of a TCP stream may hold several frames, one behind the other. */
-function explainAll(bytes: Buffer, options: ExplainOptions): readonly Explanation[] {
+function explainAll(bytes: Buffer, explain: (rest: Buffer) => Explanation): readonly Explanation[] {
   const frames: Explanation[] = []
   let rest = bytes
   while (rest.length > 0) {
-    const explanation = explainFrame(rest, options)
+    const explanation = explain(rest)
     const last = explanation.rest === 0 || explanation.rest === rest.length || explanation.fault !== undefined
     frames.push(last ? explanation : { ...explanation, rest: 0 })
     if (last) return frames

@@ -5,6 +5,7 @@ import { type CommandName, commands } from '../melsec/commands/commands'
 import { modelOf } from '../melsec/model-code'
 import type { Profile, ProfileId } from '../melsec/profile'
 import type { CallOptions } from './call'
+import { checkBooleans, shown } from './given'
 
 /** Sends one command: what the client gives to the functions here. */
 export type Send = <C extends Command<(typeof commands)[CommandName], string>>(
@@ -63,8 +64,14 @@ export interface Identity {
 export function controlOf(send: Send, profile: Profile): Control {
   const mode = (force: boolean | undefined) => (force === true ? 3 : 1)
   return {
-    run: async ({ force, clear, ...call } = {}) => {
-      const clearMode = CLEAR_MODES[clear ?? 'keep']
+    run: async (options = {}) => {
+      checkBooleans(options, ['force'])
+      const { force, clear = 'keep', ...call } = options
+      if (typeof clear !== 'string' || !Object.hasOwn(CLEAR_MODES, clear)) {
+        const modes = Object.keys(CLEAR_MODES).join(', ')
+        throw new RequestError('BAD_OPTION', `clear is ${shown(clear)}; it must be one of ${modes}.`, 'clear')
+      }
+      const clearMode = CLEAR_MODES[clear]
       if (!profile.remote.clearModes.includes(clearMode)) {
         throw new RequestError(
           'UNSUPPORTED',
@@ -77,10 +84,14 @@ export function controlOf(send: Send, profile: Profile): Control {
     stop: async (call = {}) => {
       await send(commands.remoteStop, {}, call)
     },
-    pause: async ({ force, ...call } = {}) => {
+    pause: async (options = {}) => {
+      checkBooleans(options, ['force'])
+      const { force, ...call } = options
       await send(commands.remotePause, { mode: mode(force) }, call)
     },
-    latchClear: async ({ value, ...call } = {}) => {
+    latchClear: async (options = {}) => {
+      checkBooleans(options, [])
+      const { value, ...call } = options
       await send(commands.remoteLatchClear, value === undefined ? {} : { fixed: value }, call)
     },
     reset: async (call = {}) => {

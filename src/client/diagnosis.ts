@@ -8,6 +8,8 @@ export interface LinkSettings {
   readonly transport: TransportName
   readonly port: number
   readonly frame: FrameName
+  /** Frames of the family, when it is known: another one is not proposed. */
+  readonly frames?: readonly FrameName[]
   readonly code: DataCode
   readonly route: { readonly network: number; readonly station: number }
   /** Local port, when the user fixed it. */
@@ -15,14 +17,15 @@ export interface LinkSettings {
 }
 
 const OTHER_CODE = { binary: 'ASCII', ascii: 'binary' } as const
-const OTHER_FRAME = { '3E': '4E', '4E': '3E' } as const
+const OTHER_FRAME = { '3E': '4E', '4E': '3E', '1E': '3E' } as const
 
 /** Ranked causes of a silence, as sentences that say what to check. */
 export function explainSilence(settings: LinkSettings, silence: Silence): readonly string[] {
   return silence.answeredBefore ? afterItWorked() : fromTheStart(settings)
 }
 
-function fromTheStart({ transport, port, frame, code, route, localPort }: LinkSettings): readonly string[] {
+function fromTheStart(settings: LinkSettings): readonly string[] {
+  const { transport, port, frame, frames, code, route, localPort } = settings
   const dataCode = `The PLC's port is set to ${OTHER_CODE[code]} code and this connection to ${code}: compare "communication data code" in GX Works.`
   const peer =
     `UDP: the PLC sends its answer to the peer that is registered in its open settings; register this computer's address${localPort === undefined ? ' and set a fixed local port here' : ` and port ${localPort}`}, ` +
@@ -31,7 +34,8 @@ function fromTheStart({ transport, port, frame, code, route, localPort }: LinkSe
   const otherFrame = `The PLC does not know the ${frame} frame: try ${OTHER_FRAME[frame]}${frame === '4E' ? ' (iQ-F and older E71 modules have 3E only)' : ''}.`
   const elsewhere = `Network ${route.network}, station ${route.station} does not answer: check the route, or leave it at the own station.`
   const routed = route.network !== 0 || route.station !== 0xff
-  const common = [dataCode, otherPort, otherFrame, 'The PLC is busy or the line slow: raise the timeout.']
+  const frameCauses = frames?.includes(OTHER_FRAME[frame]) === false ? [] : [otherFrame]
+  const common = [dataCode, otherPort, ...frameCauses, 'The PLC is busy or the line slow: raise the timeout.']
   const ranked = transport === 'udp' ? [peer, ...common] : common
   return routed ? [elsewhere, ...ranked] : ranked
 }

@@ -6,16 +6,20 @@ import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import { frame3e, type Head3e } from '../melsec/frame-3e'
 import type { Profile } from '../melsec/profile'
-import { type ExchangeOptions, MelsecProtocol } from '../melsec/protocol'
+import { type ClientProtocol, type ExchangeOptions, MelsecProtocol } from '../melsec/protocol'
+import { protocolOver1e } from '../melsec/slmp-over-1e'
 import { tcpTransport } from '../transport/tcp'
 import type { OpenTransport } from '../transport/transport'
 import { udpTransport } from '../transport/udp'
 import type { PlcValue, ValueOf } from '../value/value'
-import type { CallOptions } from './call'
+import { type CallOptions, optionProblem } from './call'
 import { Connection, type ConnectionState } from './connection'
 import { type Control, controlOf, type Identity, identify, type Send, selfTest } from './control'
+import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
-import { ItemMonitor, type Monitor, Registration } from './monitor'
+import { checkBooleans, checkRequest, isItem, isList, listOf, namesOf } from './given'
+import { Listeners } from './listeners'
+import { ItemMonitor, type Monitor, type MonitorCall, Registration } from './monitor'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import {
   explainItem,
@@ -23,7 +27,6 @@ import {
   type ItemExplanation,
   type ParsedItem,
   type PlanDescription,
-  type Send as PlanSend,
   parseItem,
   planRead,
   planWrite,
@@ -34,6 +37,7 @@ import {
 } from './plan'
 import type { Statistics } from './statistics'
 import { type TraceEntry, Tracer } from './trace'
+import { refuseAmbiguousXy } from './xy-notation'
 
 /** A value read from an item without, or with, a count or range. */
 export type ReadValue = PlcValue | PlcValue[]
@@ -87,6 +91,8 @@ export interface WritePlan {
   toString(): string
 }
 
+const EVENTS = { state: true, trace: true, unsolicited: true } as const satisfies Record<keyof ClientEvents, true>
+
 /** Plans of `read` that are kept. A program that reads ever new lists must not fill the memory with them. */
 const PREPARED_PLANS = 500
 
@@ -101,12 +107,14 @@ const PREPARED_PLANS = 500
  */
 export class MelsecClient {
   readonly #settings: Settings
-  readonly #protocol: MelsecProtocol<Head3e>
+  readonly #protocol: ClientProtocol<Head3e>
   readonly #connection: Connection<Head3e>
-  readonly #listeners = new Map<keyof ClientEvents, Set<(event: never) => void>>()
+  readonly #listeners = new Listeners<ClientEvents>(EVENTS, () => this.#traceIfWanted())
   readonly #tracer: Tracer
   readonly #prepared = new Map<string, ReadPlan>()
   readonly #registration: Registration
+  /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
+  #monitored = false
   readonly #send: Send
   /** Remote RUN, STOP, PAUSE, latch clear and reset. Needs `allowControl`. */
   readonly control: Control
@@ -115,7 +123,12 @@ export class MelsecClient {
     const settings = settle(options)
     this.#settings = settings
     this.#protocol = protocolOf(settings, options)
-    this.#tracer = new Tracer({ frame: settings.frame, code: settings.code, profile: settings.profile })
+    this.#tracer = new Tracer({
+      ...settings,
+      asciiXy: options.asciiXy,
+      asciiZr: options.asciiZr,
+      kind: settings.transport === 'udp' ? 'datagram' : 'stream',
+    })
     this.#connection = new Connection({
       framing: this.#protocol.framing,
       openTransport: options.openTransport ?? transportOf(settings, options),
@@ -127,9 +140,12 @@ export class MelsecClient {
       timeout: settings.timeout,
       probe: () => this.#probe(),
       explainSilence: (silence) =>
-        explainSilence({ ...settings, port: options.port, localPort: options.localPort }, silence),
-      onState: (state) => this.#tell('state', state),
-      onUnsolicited: ({ head, body }) => this.#tell('unsolicited', { route: head.route, body }),
+        explainSilence(
+          { ...settings, port: options.port, localPort: options.localPort, frames: settings.profile.frames },
+          silence,
+        ),
+      onState: (state) => this.#changed(state),
+      onUnsolicited: ({ head, body }) => this.#listeners.tell('unsolicited', { route: head.route, body }),
     })
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = (command, message, call) => this.request(command, message, call)
@@ -154,38 +170,26 @@ export class MelsecClient {
     return this.#connection.statistics
   }
 
-  /** Listens to an event. @returns what ends it. */
+  /** Listens to an event. @returns what ends it. @throws RequestError BAD_OPTION when there is no such event */
   on<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
-    const listeners = this.#listeners.get(event) ?? new Set()
-    this.#listeners.set(event, listeners)
-    listeners.add(listener)
-    this.#traceIfWanted()
-    return () => {
-      listeners.delete(listener)
-      this.#traceIfWanted()
-    }
+    return this.#listeners.on(event, listener)
   }
 
   #traceIfWanted(): void {
-    const wanted = (this.#listeners.get('trace')?.size ?? 0) > 0
-    this.#connection.onTrace = wanted ? (frame) => this.#tell('trace', this.#tracer.entry(frame)) : undefined
+    const tell: Connection<Head3e>['onTrace'] = (frame) => this.#listeners.tell('trace', this.#tracer.entry(frame))
+    this.#connection.onTrace = this.#listeners.has('trace') ? tell : undefined
   }
 
-  #tell<E extends keyof ClientEvents>(event: E, value: ClientEvents[E]): void {
-    const listeners = this.#listeners.get(event) as Set<(event: ClientEvents[E]) => void> | undefined
-    if (listeners === undefined) return
-    for (const listener of [...listeners]) {
-      try {
-        listener(value)
-      } catch (error) {
-        // A listener's mistake must not stop the connection beside a running machine; it must not go unseen either.
-        process.emitWarning(error instanceof Error ? error : String(error))
-      }
-    }
+  #changed(state: ConnectionState): void {
+    // What a trace was putting together does not go on behind another connection.
+    if (state.name !== 'connected') this.#tracer.reset()
+    this.#listeners.tell('state', state)
   }
 
   /** Connects now instead of at the first call. Resolves when the PLC has answered. */
-  connect(options?: CallOptions): Promise<void> {
+  async connect(options: CallOptions = {}): Promise<void> {
+    const problem = optionProblem(options)
+    if (problem !== undefined) throw problem
     return this.#connection.connect(options)
   }
 
@@ -209,7 +213,7 @@ export class MelsecClient {
   ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
     if (isItem(items)) return plainValue((await this.#prepare([items]).run(options))[0])
     if (isList(items)) return this.#prepare(items).run(options)
-    const names = Object.keys(items)
+    const names = namesOf(items, ITEMS)
     return byName(names, await this.#prepare(names.map((name) => items[name] as Item)).run(options))
   }
 
@@ -228,7 +232,7 @@ export class MelsecClient {
   ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
   async readValues(items: readonly Item[] | Readonly<Record<string, Item>>, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return (await this.#prepare(items).run(options)).map(plainValue)
-    const names = Object.keys(items)
+    const names = namesOf(items, ITEMS)
     const results = await this.#prepare(names.map((name) => items[name] as Item)).run(options)
     return byName(names, results.map(plainValue))
   }
@@ -236,7 +240,8 @@ export class MelsecClient {
   /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
   #prepare(items: readonly Item[]): ReadPlan {
     if (!items.every((item) => typeof item === 'string')) return this.plan(items)
-    const key = `${items.length}:${items.join('\n')}`
+    // Not joined: whatever stood between two texts could also stand in one.
+    const key = JSON.stringify(items)
     const known = this.#prepared.get(key)
     if (known !== undefined) return known
     const plan = this.plan(items)
@@ -251,12 +256,12 @@ export class MelsecClient {
    */
   plan(items: readonly Item[]): ReadPlan {
     const plan = planRead(
-      items.map((item) => this.#parse(item)),
+      listOf(items, 'items').map((item) => this.#parse(item)),
       this.#protocol,
       this.#planOptions,
     )
     return {
-      run: (options) => plan.run(this.#within(options), () => this.#settings.clock.time()),
+      run: async (options) => plan.run(this.#call(options).send, () => this.#settings.clock.time()),
       describe: () => plan.describe(),
       toString: () => plan.toString(),
     }
@@ -266,24 +271,28 @@ export class MelsecClient {
     return { gap: this.#settings.gap, xyRadix: this.#settings.xyRadix }
   }
 
-  /** Sends for one call: all its requests share one absolute deadline. */
-  #within(options: CallOptions = {}): PlanSend<Head3e> {
+  /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
+  #call(options: CallOptions | undefined): MonitorCall<Head3e> {
     const { clock, timeout } = this.#settings
-    const deadline = clock.now() + (options.timeout ?? timeout)
-    return (exchange) => {
-      this.#permit(exchange.effect, exchange.title)
-      return this.#connection.request(exchange, { ...options, timeout: Math.max(0, deadline - clock.now()) })
+    const deadline = new Deadline(clock, options, timeout)
+    return {
+      deadline,
+      send: (exchange) => {
+        this.#permit(exchange.effect, exchange.title)
+        return this.#connection.request(exchange, deadline.options(exchange.title))
+      },
     }
   }
 
   #parse(item: Item): ParsedItem | RefusedItem {
     try {
-      const parsed = parseItem(item, { xyRadix: this.#settings.xyRadix, format: this.#settings.format })
-      if (this.#settings.xyUnknown) refuseAmbiguousXy(parsed)
+      const { xyRadix, xyUnknown, format } = this.#settings
+      const parsed = parseItem(item, { xyRadix, format })
+      if (xyUnknown) refuseAmbiguousXy(item, parsed)
       return parsed
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
-      return { text: typeof item === 'string' ? item : String(item.address), error }
+      return { text: typeof item === 'string' ? item : String(item?.address), error }
     }
   }
 
@@ -317,7 +326,10 @@ export class MelsecClient {
     }
     const options = second as (CallOptions & WriteOptions) | undefined
     if (isList(target)) return this.#write(target, options)
-    const names = Object.keys(target)
+    const names = namesOf(
+      target,
+      'Values to write are an item and its value, a list of entries, or an object by address',
+    )
     return byName(
       names,
       await this.#write(
@@ -331,16 +343,21 @@ export class MelsecClient {
     entries: readonly WriteEntry[],
     options: (CallOptions & WriteOptions) | undefined,
   ): Promise<WriteResult[]> {
-    this.#permit('write', 'Writing')
     return this.planWrite(entries, options).run(options)
   }
 
   /** The requests that write these values: to look at before they are run. */
   planWrite(entries: readonly WriteEntry[], options: WriteOptions = {}): WritePlan {
-    const parsed = entries.map(({ item, value }) => ({ item: this.#parse(item), value }))
+    checkBooleans(options, ['readModifyWrite', 'allOrNothing'])
+    // An entry that is none is an item that is none.
+    const parsed = listOf(entries, 'entries').map((entry) => ({ item: this.#parse(entry?.item), value: entry?.value }))
     const plan = planWrite(parsed, this.#protocol, { ...options, xyRadix: this.#settings.xyRadix })
     return {
-      run: (call) => plan.run(this.#within(call)),
+      run: async (call) => {
+        // Before anything is sent, also the reading of a word that a bit is changed in.
+        this.#permit('write', 'Writing')
+        return plan.run(this.#call(call).send)
+      },
       describe: () => plan.describe(),
       toString: () => plan.toString(),
     }
@@ -351,24 +368,30 @@ export class MelsecClient {
    * Where the profile has no monitor commands, Read Random is used instead and `note` says so.
    */
   monitor(items: readonly Item[]): Monitor {
-    return new ItemMonitor(
-      items.map((item) => this.#parse(item)),
+    const monitor = new ItemMonitor(
+      listOf(items, 'items').map((item) => this.#parse(item)),
       this.#protocol,
       {
         ...this.#planOptions,
-        send: (options) => this.#within(options),
+        call: (options) => this.#call(options),
         time: () => this.#settings.clock.time(),
         registration: this.#registration,
         unusable: this.#monitorUnusable(),
       },
     )
+    this.#monitored ||= monitor.mode === 'monitor'
+    return monitor
   }
 
   /** The PLC registers per connection, and over UDP that is the local port. */
   #monitorUnusable(): string | undefined {
     const { transport, frame } = this.#settings
-    if (transport !== 'udp' || frame !== '3E') return undefined
-    return 'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the registration again. The 4E frame or TCP would.'
+    if (transport !== 'udp') return undefined
+    if (frame === '3E') {
+      return 'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the registration again. The 4E frame or TCP would.'
+    }
+    if (!this.#monitored) return undefined
+    return 'Another monitor of this client is registered. Over UDP a registration may arrive twice or late, and take the place of this one without anybody noticing. Over TCP they take turns.'
   }
 
   /**
@@ -380,8 +403,16 @@ export class MelsecClient {
     message: RequestOf<C>,
     options: CallOptions & ExchangeOptions = {},
   ): Promise<ResponseOf<C>> {
+    const { deadline, send } = this.#call(options)
+    checkRequest(command, message, options.form)
     this.#permit(command.effect, command.title)
-    return this.#connection.request(this.#protocol.exchange(command, message, options), options)
+    const exchange = this.#protocol.exchange(command, message, options)
+    if (command.name !== commands.entryMonitorDevice.name) return send(exchange)
+    // The place of a monitor's registration is taken, in its turn: no monitor may read these devices for its own.
+    return this.#registration.inTurn(deadline, command.title, () => {
+      this.#registration.lose()
+      return send(exchange)
+    })
   }
 
   #permit(effect: Exchange<Head3e, unknown>['effect'], title: string): void {
@@ -412,18 +443,6 @@ export class MelsecClient {
   }
 }
 
-/** Only the profile tells whether X10 is the 8th or the 16th input, and a wrong guess switches another output. */
-function refuseAmbiguousXy({ address }: ParsedItem): void {
-  if ((address.device !== 'X' && address.device !== 'Y') || address.number < 8 || address.extension !== undefined)
-    return
-  throw new RequestError(
-    'BAD_ADDRESS',
-    `${address.device} numbers from 10 on are octal on iQ-F and FX and hexadecimal elsewhere, and the profile generic does not say which. ` +
-      'Set the profile (iq-r, iq-f, q, l) or xyRadix to 8 or 16.',
-    'xyRadix',
-  )
-}
-
 function notPermitted(title: string, option: 'allowWrites' | 'allowControl'): RequestError {
   const what = option === 'allowWrites' ? 'writing to' : 'controlling'
   return new RequestError(
@@ -436,7 +455,8 @@ function notPermitted(title: string, option: 'allowWrites' | 'allowControl'): Re
 function protocolOf(
   { frame, code, profile, route, timer }: Settings,
   { asciiXy, asciiZr }: MelsecClientOptions,
-): MelsecProtocol<Head3e> {
+): ClientProtocol<Head3e> {
+  if (frame === '1E') return protocolOver1e({ profile, code, asciiXy, timer, route })
   return new MelsecProtocol({ framing: frame3e(frame, code), head: { route, timer }, profile, code, asciiXy, asciiZr })
 }
 
@@ -448,16 +468,7 @@ function transportOf(
   return transport === 'udp' ? udpTransport(endpoint) : tcpTransport(endpoint)
 }
 
-function isItem(given: unknown): given is Item {
-  return (
-    typeof given === 'string' ||
-    (typeof given === 'object' && given !== null && typeof (given as { address?: unknown }).address === 'string')
-  )
-}
-
-function isList<T>(given: readonly T[] | Readonly<Record<string, unknown>>): given is readonly T[] {
-  return Array.isArray(given)
-}
+const ITEMS = 'Items to read are one item, a list of items, or an object of items by name'
 
 function plainValue(result: ReadResult | undefined): ReadValue {
   if (result?.ok === true) return result.value

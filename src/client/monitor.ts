@@ -3,8 +3,9 @@ import { EndCodeError, PlcError, RequestError } from '../errors'
 import type { Exchange } from '../link/link'
 import type { RequestOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 import type { CallOptions } from './call'
+import type { Deadline } from './deadline'
 import type { ParsedItem, RefusedItem } from './item'
 import type { Run } from './plan-chunk'
 import { Areas, piecesOf, readLayout } from './plan-layout'
@@ -17,12 +18,17 @@ import { type Place, placeOf, valueAt } from './plan-value'
 export interface MonitorOptions<Head> {
   readonly gap: number
   readonly xyRadix: 8 | 16
-  /** Sends within one call's deadline. */
-  readonly send: (options: CallOptions | undefined) => Send<Head>
+  /** One call: its deadline, and how it sends. @throws RequestError BAD_OPTION */
+  readonly call: (options: CallOptions | undefined) => MonitorCall<Head>
   readonly time: () => number
   readonly registration: Registration
   /** Why no registration can last on this connection, in words. */
   readonly unusable?: string | undefined
+}
+
+export interface MonitorCall<Head> {
+  readonly deadline: Deadline
+  readonly send: Send<Head>
 }
 
 /**
@@ -33,14 +39,26 @@ export class Registration {
   #owner: object | undefined
   #generation = -1
   #turn: Promise<unknown> = Promise.resolve()
+  #turns = 0
 
   constructor(readonly generation: () => number) {}
 
-  /** Runs `use` when every earlier one has ended. */
-  inTurn<T>(use: () => Promise<T>): Promise<T> {
-    const turn = this.#turn.then(use)
-    this.#turn = turn.catch(() => undefined)
-    return turn
+  /** Runs `use` when every earlier one has ended. Whoever gives up waiting is passed over. */
+  async inTurn<T>(deadline: Deadline, title: string, use: () => Promise<T>): Promise<T> {
+    const before = this.#turn
+    let end = () => {}
+    const own = new Promise<void>((resolve) => {
+      end = resolve
+    })
+    this.#turn = before.then(() => own)
+    this.#turns++
+    try {
+      if (this.#turns > 1) await deadline.wait(before, title)
+      return await use()
+    } finally {
+      this.#turns--
+      end()
+    }
   }
 
   isOf(owner: object): boolean {
@@ -59,7 +77,10 @@ export class Registration {
 
 /** Monitoring of some items; made by `client.monitor(items)`. */
 export interface Monitor {
-  /** `monitor`: registered in the PLC. `read`: read anew each time, because the PLC cannot register them. */
+  /**
+   * `monitor`: registered in the PLC. `read`: read anew each time, because they cannot be registered together, or, since
+   * the last `read()`, because the PLC has refused to register them.
+   */
   readonly mode: 'monitor' | 'read'
   /** Why the PLC's monitor is not used, in words; undefined when it is. */
   readonly note: string | undefined
@@ -67,15 +88,23 @@ export interface Monitor {
   read(options?: CallOptions): Promise<ReadResult[]>
 }
 
+/** A refusal of the PLC, and the connection it was on. */
+interface Refused {
+  readonly error: EndCodeError
+  readonly generation: number
+}
+
 export class ItemMonitor<Head> implements Monitor {
   readonly #options: MonitorOptions<Head>
   readonly #registered: Registered<Head> | undefined
   readonly #plan: ReadPlan<Head>
-  readonly note: string | undefined
+  readonly #problem: RequestError | undefined
+  /** The PLC does not register these items on this connection. After another connection it is asked again. */
+  #refused: Refused | undefined
 
   constructor(
     items: readonly (ParsedItem | RefusedItem)[],
-    protocol: MelsecProtocol<Head>,
+    protocol: ClientProtocol<Head>,
     options: MonitorOptions<Head>,
   ) {
     this.#options = options
@@ -85,18 +114,36 @@ export class ItemMonitor<Head> implements Monitor {
       this.#registered = new Registered(items, protocol, options)
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
-      this.note = `The items are read without monitor commands. ${error.message}`
+      this.#problem = error
     }
   }
 
   get mode(): 'monitor' | 'read' {
-    return this.#registered === undefined ? 'read' : 'monitor'
+    return this.#registered === undefined || this.#refusal() !== undefined ? 'read' : 'monitor'
   }
 
-  read(options?: CallOptions): Promise<ReadResult[]> {
-    const send = this.#options.send(options)
-    if (this.#registered === undefined) return this.#plan.run(send, this.#options.time)
-    return this.#registered.read(send)
+  get note(): string | undefined {
+    const reason = this.#problem ?? this.#refusal()
+    return reason && `The items are read without monitor commands. ${reason.message}`
+  }
+
+  #refusal(): EndCodeError | undefined {
+    const refused = this.#refused
+    return refused?.generation === this.#options.registration.generation() ? refused.error : undefined
+  }
+
+  async read(options?: CallOptions): Promise<ReadResult[]> {
+    const call = this.#options.call(options)
+    if (this.#registered === undefined || this.#refusal() !== undefined) return this.#plain(call)
+    const results = await this.#registered.read(call)
+    if (!(results instanceof EndCodeError)) return results
+    // One item may be to blame, or the PLC has no monitor: reading finds out, and leaves the other items alone.
+    this.#refused = { error: results, generation: this.#options.registration.generation() }
+    return this.#plain(call)
+  }
+
+  #plain({ send }: MonitorCall<Head>): Promise<ReadResult[]> {
+    return this.#plan.run(send, this.#options.time)
   }
 }
 
@@ -112,7 +159,7 @@ class Registered<Head> {
   /** @throws RequestError when the items cannot be registered together. */
   constructor(
     items: readonly (ParsedItem | RefusedItem)[],
-    protocol: MelsecProtocol<Head>,
+    protocol: ClientProtocol<Head>,
     options: MonitorOptions<Head>,
   ) {
     this.#items = items
@@ -126,10 +173,14 @@ class Registered<Head> {
     this.#execute = protocol.exchange(commands.executeMonitor, {}, { context: this.#prepared.exchange.message })
   }
 
-  async read(send: Send<Head>): Promise<ReadResult[]> {
+  /** The results; an end code when the PLC refuses to register the items or to read them. */
+  async read({ deadline, send }: MonitorCall<Head>): Promise<ReadResult[] | EndCodeError> {
     try {
-      return this.#results(await this.#options.registration.inTurn(() => this.#fetch(send)))
+      const { registration } = this.#options
+      const words = await registration.inTurn(deadline, 'Execute Monitor', () => this.#fetch(send))
+      return this.#results(words)
     } catch (error) {
+      if (error instanceof EndCodeError) return error
       if (!(error instanceof PlcError)) throw error
       const timestamp = this.#options.time()
       return this.#items.map((item) => ({
@@ -150,9 +201,9 @@ class Registered<Head> {
     try {
       return await execute()
     } catch (error) {
-      // A PLC that restarted behind a connection that lives has forgotten the registration: once more, then it is an error.
-      if (isNew || !(error instanceof EndCodeError)) throw error
-      registration.lose()
+      // A PLC that restarted behind a connection that lives has forgotten the registration, and so has one whose
+      // connection was made anew in between: once more, then it is an error.
+      if (!(error instanceof EndCodeError) || (isNew && registration.isOf(this))) throw error
       await this.#register(send)
       return execute()
     }

@@ -7,6 +7,7 @@ import {
   type Profile,
   type ProfileId,
   type ProfileOverrides,
+  profileIds,
   resolveProfile,
   type TransportName,
 } from '../melsec/profile'
@@ -14,6 +15,7 @@ import { completeRoute, type Route } from '../melsec/route'
 import { type Clock, realClock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
 import { checkFormat, type ValueFormat } from '../value/value'
+import { shown } from './given'
 
 /** How to reach a MELSEC PLC and how to speak to it. Times in milliseconds. */
 export interface MelsecClientOptions {
@@ -102,9 +104,55 @@ const TIMER_UNIT = 250
 const LONGEST_TIMER = 0xffff * TIMER_UNIT
 const LONGEST = 24 * 60 * 60 * 1000
 
+const NAMES = {
+  host: true,
+  port: true,
+  transport: true,
+  localAddress: true,
+  localPort: true,
+  profile: true,
+  profileOverrides: true,
+  frame: true,
+  code: true,
+  asciiXy: true,
+  asciiZr: true,
+  xyRadix: true,
+  route: true,
+  monitoringTimer: true,
+  timeout: true,
+  connectTimeout: true,
+  inFlight: true,
+  queueLimit: true,
+  allowWrites: true,
+  allowControl: true,
+  gap: true,
+  format: true,
+  reconnect: true,
+  settleGap: true,
+  openTransport: true,
+  clock: true,
+  random: true,
+} as const satisfies Record<keyof MelsecClientOptions, true>
+const PAUSES = { first: true, longest: true } as const satisfies Record<
+  keyof NonNullable<MelsecClientOptions['reconnect']>,
+  true
+>
+
 /** @throws RequestError BAD_OPTION naming the option. */
 export function settle(options: MelsecClientOptions): Settings {
-  const profile = resolveProfile(options.profile ?? 'generic', options.profileOverrides)
+  checkNames('', options, NAMES)
+  checkNames('reconnect.', options.reconnect ?? {}, PAUSES)
+  checkObject('route', options.route)
+  checkObject('format', options.format)
+  whole('localPort', options.localPort ?? 0, 0, 65_535)
+  checkFunction('openTransport', options.openTransport)
+  checkFunction('random', options.random)
+  if (options.localAddress !== undefined && typeof options.localAddress !== 'string') {
+    throw new RequestError('BAD_OPTION', 'localAddress is the address of a network interface, as text.', 'localAddress')
+  }
+  oneOf('asciiXy', options.asciiXy, [undefined, 'octal', 'hexadecimal'])
+  oneOf('asciiZr', options.asciiZr, [undefined, 'decimal', 'hexadecimal'])
+  const profile = resolveProfile(profileGiven(options.profile ?? 'generic'), options.profileOverrides ?? undefined)
   const transport = oneOf('transport', options.transport ?? 'tcp', ['tcp', 'udp'])
   const frame = frameOf(profile, options.frame)
   if (options.openTransport === undefined) checkPeer(options)
@@ -134,6 +182,34 @@ export function settle(options: MelsecClientOptions): Settings {
   }
 }
 
+/** A misspelt option would be the default, without anybody noticing. */
+function checkNames(prefix: string, given: object, names: Readonly<Record<string, true>>): void {
+  if (typeof given !== 'object' || given === null) {
+    const what = prefix === '' ? 'A client' : prefix.slice(0, -1)
+    throw new RequestError('BAD_OPTION', `${what} takes an object with ${Object.keys(names).join(', ')}.`)
+  }
+  for (const name of Object.keys(given)) {
+    if (Object.hasOwn(names, name)) continue
+    const field = `${prefix}${name}`
+    throw new RequestError('BAD_OPTION', `There is no option ${field}: use ${Object.keys(names).join(', ')}.`, field)
+  }
+}
+
+function checkObject(field: string, given: object | undefined): void {
+  if (given === undefined || (typeof given === 'object' && given !== null)) return
+  throw new RequestError('BAD_OPTION', `${field} is ${shown(given)}; it must be an object.`, field)
+}
+
+function checkFunction(field: string, given: unknown): void {
+  if (given === undefined || typeof given === 'function') return
+  throw new RequestError('BAD_OPTION', `${field} is ${shown(given)}; it must be a function.`, field)
+}
+
+function profileGiven(given: ProfileId | Profile): ProfileId | Profile {
+  if (typeof given === 'string' || (typeof given === 'object' && profileIds.includes(given.id))) return given
+  throw new RequestError('BAD_OPTION', `profile is one of ${profileIds.join(', ')}, or a profile's data.`, 'profile')
+}
+
 function checkPeer({ host, port }: MelsecClientOptions): void {
   if (typeof host !== 'string' || host.trim() === '') {
     throw new RequestError('BAD_OPTION', 'host is missing: give the address of the PLC, e.g. 192.168.3.39.', 'host')
@@ -146,7 +222,7 @@ function frameOf(profile: Profile, frame: FrameName | undefined): FrameName {
   if (profile.frames.includes(chosen)) return chosen
   throw new RequestError(
     'BAD_OPTION',
-    `${profile.title} has no ${String(chosen)} frame: use ${profile.frames.join(' or ')}.`,
+    `${profile.title} has no ${shown(chosen)} frame: use ${profile.frames.join(' or ')}.`,
     'frame',
   )
 }
@@ -182,7 +258,7 @@ function whole(field: string, value: number, min: number, max: number): number {
   if (Number.isInteger(value) && value >= min && value <= max) return value
   throw new RequestError(
     'BAD_OPTION',
-    `${field} is ${String(value)}; it must be a whole number from ${min} to ${max}.`,
+    `${field} is ${shown(value)}; it must be a whole number from ${min} to ${max}.`,
     field,
   )
 }
@@ -191,7 +267,7 @@ function oneOf<const T>(field: string, value: T, values: readonly T[]): T {
   if (values.includes(value)) return value
   throw new RequestError(
     'BAD_OPTION',
-    `${field} is ${String(value)}; it must be ${values.map(String).join(' or ')}.`,
+    `${field} is ${shown(value)}; it must be ${values.map(String).join(' or ')}.`,
     field,
   )
 }

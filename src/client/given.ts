@@ -1,0 +1,64 @@
+// What programs without types pass: looked at before anything is done with it.
+import { RequestError } from '../errors'
+import type { Command } from '../melsec/command'
+import { FORM_BITS } from '../melsec/form'
+import { show } from '../value/fault'
+import type { Item } from './item'
+
+/** Also objects of another realm, as the sandbox of a Node-RED function node makes them. */
+function isPlainObject(given: unknown): given is Readonly<Record<string, unknown>> {
+  return Object.prototype.toString.call(given) === '[object Object]'
+}
+
+/** A value in a message about an option: short, and of whatever kind it is. */
+export function shown(given: unknown): string {
+  return typeof given === 'string' ? given.slice(0, 40) : show(given)
+}
+
+export function isItem(given: unknown): given is Item {
+  return (
+    typeof given === 'string' ||
+    (typeof given === 'object' && given !== null && typeof (given as { address?: unknown }).address === 'string')
+  )
+}
+
+export function isList<T>(given: readonly T[] | Readonly<Record<string, unknown>>): given is readonly T[] {
+  return Array.isArray(given)
+}
+
+/** The elements of a list; a hole is an element too. @throws RequestError */
+export function listOf<T>(given: readonly T[], what: string): readonly T[] {
+  if (Array.isArray(given)) return Array.from<T>(given)
+  throw new RequestError('BAD_ADDRESS', `A list of ${what} is an array, not ${shown(given)}.`)
+}
+
+/** The names of an object. @throws RequestError */
+export function namesOf(given: object, what: string): readonly string[] {
+  if (isPlainObject(given)) return Object.keys(given)
+  throw new RequestError('BAD_ADDRESS', `${what}, not ${shown(given)}.`)
+}
+
+/** @throws RequestError BAD_OPTION when an option is there and no boolean */
+export function checkBooleans(given: object, names: readonly string[]): void {
+  if (!isPlainObject(given)) throw new RequestError('BAD_OPTION', `Options are an object, not ${shown(given)}.`)
+  for (const name of names) {
+    const value = given[name]
+    if (value === undefined || typeof value === 'boolean') continue
+    throw new RequestError('BAD_OPTION', `${name} is ${shown(value)}; it must be true or false.`, name)
+  }
+}
+
+const EFFECTS: readonly unknown[] = ['read', 'write', 'control', 'diagnose'] satisfies readonly Command['effect'][]
+
+/** @throws RequestError BAD_MESSAGE or BAD_OPTION */
+export function checkRequest(command: Command, message: unknown, form: unknown): void {
+  if (!isPlainObject(command) || !EFFECTS.includes(command.effect) || !isPlainObject(command.request)) {
+    throw new RequestError('BAD_MESSAGE', 'request() takes a declared command, e.g. commands.readWords.', 'command')
+  }
+  if (!isPlainObject(message)) {
+    throw new RequestError('BAD_MESSAGE', `The message of ${command.title} is an object, not ${shown(message)}.`)
+  }
+  if (form === undefined || (typeof form === 'string' && Object.hasOwn(FORM_BITS, form))) return
+  const forms = Object.keys(FORM_BITS).join(', ')
+  throw new RequestError('BAD_OPTION', `form is ${shown(form)}; it must be one of ${forms}.`, 'form')
+}
