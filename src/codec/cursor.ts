@@ -48,6 +48,8 @@ export interface Reader {
 /** The escape hatch: a value whose two codes differ in more than width, e.g. a device address. */
 export interface ValueCodec<T> {
   readonly name: string
+  /** The size is in the value and in nothing that stands before it: `size` needs the value. */
+  readonly variable?: true
   /** Throws `RequestError` when the value cannot be said in this form. */
   write(writer: Writer, value: T): void
   read(reader: Reader): T

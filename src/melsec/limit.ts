@@ -1,12 +1,15 @@
 // How much one request may carry, as data: per command, form of the device specification and data code.
 // The client checks and splits with it, the simulator answers its end code, the documentation prints it.
-import type { DataCode } from '../codec/codec'
+import { type DataCode, encode, type Shape, writerOf } from '../codec/codec'
 import { RequestError } from '../errors'
-import type { CommandName } from './commands/commands'
+import { type CommandName, commands } from './commands/commands'
 import type { DeviceForm, Profile } from './profile'
 
-/** What a limit counts. `weightedPoints`: points and blocks with weights, as the manuals give them. */
-export type LimitUnit = 'points' | 'blocks' | 'weightedPoints'
+/**
+ * What a limit counts. `weightedPoints`: points and blocks with weights, as the manuals give them. `bytes`: the request
+ * data as sent, from the command on; it has no sum.
+ */
+export type LimitUnit = 'points' | 'blocks' | 'weightedPoints' | 'bytes'
 
 /**
  * Weight of each request field. A number field counts its value, a list or bulk field its length;
@@ -66,7 +69,7 @@ function factorOf(rule: LimitRule, form: DeviceForm, code: DataCode): number {
 }
 
 function limitOf(rule: LimitRule, command: CommandName, form: DeviceForm, code: DataCode): Limit {
-  const sum = rule.sum ?? pointFields[command]
+  const sum = rule.sum ?? (rule.unit === 'bytes' ? {} : pointFields[command])
   if (sum === undefined) throw new Error(`limit rule for ${command} without a sum`)
   // "Counts n times, at most max" is the same as "at most max / n", and the figure a user can check against.
   const max = Math.floor(rule.max / factorOf(rule, form, code))
@@ -145,6 +148,7 @@ function sizeAt(message: Measurable, path: string): number | undefined {
  * @throws RequestError BAD_MESSAGE when a field of the sum is missing or has no size.
  */
 export function measureLimit(limit: Limit, message: Measurable): number {
+  if (limit.unit === 'bytes') return requestBytes(limit.command, limit.code, message)
   let sum = 0
   for (const [path, weight] of Object.entries(limit.sum)) {
     const size = sizeAt(message, path)
@@ -154,6 +158,18 @@ export function measureLimit(limit: Limit, message: Measurable): number {
     sum += weight * size
   }
   return sum
+}
+
+/**
+ * Bytes of request data, command and subcommand included.
+ * @throws RequestError BAD_MESSAGE when the message does not fit the command.
+ */
+export function requestBytes(name: CommandName, code: DataCode, message: Measurable): number {
+  const writer = writerOf(code)
+  writer.uint(commands[name].code, 2)
+  writer.uint(0, 2)
+  encode<Shape>(commands[name].request, message, writer)
+  return writer.take().length
 }
 
 /** The first limit the message breaks, with what was measured; undefined when it fits. For the simulator's end codes. */
@@ -172,6 +188,7 @@ export function brokenLimit(
 }
 
 function formula(limit: Limit): string {
+  if (limit.unit === 'bytes') return 'command, subcommand and data'
   return Object.entries(limit.sum)
     .map(([path, weight]) => (weight === 1 ? path : `${weight} x ${path}`))
     .join(' + ')
@@ -181,6 +198,7 @@ const unitText: Readonly<Record<LimitUnit, string>> = {
   points: 'points',
   blocks: 'blocks',
   weightedPoints: 'weighted points',
+  bytes: 'bytes',
 }
 
 /**

@@ -6,6 +6,7 @@ import type { DeviceAddress } from '../melsec/device'
 import type { Profile } from '../melsec/profile'
 import type { Cpu } from './cpu'
 import type { ErrorLog } from './error-log'
+import type { LabelTable } from './labels'
 import type { AccessUnit, DeviceMemory } from './memory'
 import { Refusal } from './refusal'
 
@@ -25,6 +26,7 @@ export interface Call {
   readonly memory: DeviceMemory
   readonly cpu: Cpu
   readonly errors: ErrorLog
+  readonly labels: LabelTable
   /** Model name, padded to 16 characters, and model code. */
   readonly model: { readonly model: string; readonly modelCode: number }
   readonly caller: Caller
@@ -111,6 +113,22 @@ export const handlers: { readonly [N in CommandName]: Handler<N> } = {
   selfTest: ({ data }) => ({ data }),
   clearError(_, { errors }) {
     errors.clear()
+    return {}
+  },
+  readArrayLabels: ({ abbreviations, arrays }, { labels }) => ({
+    arrays: arrays.map(({ name, unit, length }) => labels.readArray(name, abbreviations, { unit, length })),
+  }),
+  writeArrayLabels({ abbreviations, arrays }, { labels }) {
+    const writes = arrays.map(({ name, area }) => labels.arrayWriter(name, abbreviations, area))
+    for (const write of writes) write()
+    return {}
+  },
+  readRandomLabels: (request, { labels }) => ({
+    labels: request.labels.map(({ name }) => labels.read(name, request.abbreviations)),
+  }),
+  writeRandomLabels(request, { labels }) {
+    const writes = request.labels.map(({ name, data }) => labels.writer(name, request.abbreviations, data))
+    for (const write of writes) write()
     return {}
   },
 }

@@ -8,6 +8,7 @@ import { type Profile, type ProfileId, type ProfileOverrides, resolveProfile } f
 import { type Clock, realClock } from '../transport/clock'
 import type { PortFrame } from './any-frame'
 import type { Call } from './handlers'
+import { LabelTable, type SimulatedLabels } from './labels'
 import type { ExtensionMemory } from './memory'
 
 /** A port that listens. */
@@ -59,6 +60,8 @@ export interface PlcSimulatorOptions {
   readonly latch?: readonly DeviceName[]
   /** Buffer memory and link direct devices. Default: none. */
   readonly extensions?: ExtensionMemory
+  /** Global labels that are open to external devices. Default: none. */
+  readonly labels?: SimulatedLabels
   readonly clock?: Clock
 }
 
@@ -83,6 +86,7 @@ export interface Settings {
   readonly remoteOwner: 'host' | 'connection'
   readonly latch: readonly DeviceName[]
   readonly extensions: ExtensionMemory
+  readonly labels: LabelTable
   readonly clock: Clock
 }
 
@@ -130,6 +134,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     remoteOwner: oneOf('remoteOwner', options.remoteOwner ?? 'host', ['host', 'connection']),
     latch: latchOf(options.latch ?? ['L', 'R', 'ZR']),
     extensions: options.extensions ?? {},
+    labels: new LabelTable(options.labels ?? {}),
     clock: options.clock ?? realClock,
   }
   for (const name of Object.keys(options)) {

@@ -9,6 +9,7 @@ import { checkRequest, routeRefusal } from './check'
 import { Cpu, type StateChange } from './cpu'
 import { ErrorLog } from './error-log'
 import { type Call, type Caller, type Handler, handlers } from './handlers'
+import type { LabelTable } from './labels'
 import { DeviceMemory, type ExtensionMemory } from './memory'
 import { ProgramMemory } from './program-memory'
 import { Refusal } from './refusal'
@@ -25,6 +26,7 @@ export interface PlcParts {
   readonly model: Call['model']
   readonly latch: readonly DeviceName[]
   readonly extensions: ExtensionMemory
+  readonly labels: LabelTable
   readonly resetAllowed: boolean
   readonly otherStations: 'refuse' | 'silence'
   readonly changed: (change: StateChange) => void
@@ -60,7 +62,8 @@ export class Plc {
       },
     })
     const { profile, cpu, errors } = this
-    this.#call = { profile, cpu, errors, memory: this.#devices, model: parts.model, restart: parts.restart }
+    const { labels, model, restart } = parts
+    this.#call = { profile, cpu, errors, memory: this.#devices, labels, model, restart }
     this.#refreshSystemDevices()
   }
 

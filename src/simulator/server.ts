@@ -17,6 +17,7 @@ import type { Cpu, StateChange } from './cpu'
 import type { ErrorLog } from './error-log'
 import { Emitter } from './events'
 import { type FaultSubject, Faults } from './faults'
+import type { ProgramLabels } from './labels'
 import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
 import { Plc } from './plc'
 import type { ProgramMemory } from './program-memory'
@@ -74,6 +75,8 @@ export interface PlcSimulator {
   readonly clock: Clock
   /** Device memory as a program in the PLC sees it. */
   readonly memory: ProgramMemory
+  /** Global labels as a program in the PLC sees them. */
+  readonly labels: ProgramLabels
   /** State, switch, and who holds it remotely. */
   readonly cpu: Cpu
   readonly faults: Faults
@@ -120,6 +123,7 @@ class Simulator implements PlcSimulator {
   readonly profile: Profile
   readonly clock: Clock
   readonly memory: ProgramMemory
+  readonly labels: ProgramLabels
   readonly cpu: Cpu
   readonly faults = new Faults()
   readonly errors: ErrorLog
@@ -142,7 +146,7 @@ class Simulator implements PlcSimulator {
   #closing: Promise<void> | undefined
 
   constructor(settings: Settings) {
-    const { profile, clock, model, latch, extensions, resetAllowed, otherStations } = settings
+    const { profile, clock, model, latch, extensions, labels, resetAllowed, otherStations } = settings
     this.#settings = settings
     this.profile = profile
     this.clock = clock
@@ -151,6 +155,7 @@ class Simulator implements PlcSimulator {
       model,
       latch,
       extensions,
+      labels,
       resetAllowed,
       otherStations,
       changed: (change) => this.#events.emit('state', change),
@@ -158,6 +163,7 @@ class Simulator implements PlcSimulator {
       restart: () => this.restart(),
     })
     this.memory = this.#plc.memory
+    this.labels = labels
     this.cpu = this.#plc.cpu
     this.errors = this.#plc.errors
     this.#shared = this.#share()

@@ -4,6 +4,7 @@ export type { Cpu, CpuState, Hold, StateChange, SwitchPosition } from './cpu'
 export type { ErrorLog, LoggedError } from './error-log'
 export { type FaultKind, type FaultParameter, faultKinds } from './fault-kinds'
 export type { ActiveFault, Fault, FaultAim, FaultSubject, Faults } from './faults'
+export type { ProgramLabels, SimulatedLabel, SimulatedLabels } from './labels'
 export type { ExtensionMemory } from './memory'
 export type { PlcSimulatorOptions, PortOptions } from './options'
 export {

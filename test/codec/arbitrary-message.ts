@@ -4,6 +4,7 @@ import type { Context, Field, Shape } from '../../src/codec/codec'
 import { jwAddress } from '../../src/jw/operand'
 import { aCompatibleDevice } from '../../src/melsec/a-compatible-device'
 import { deviceAddress } from '../../src/melsec/device-codec'
+import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label-codec'
 import { setReset } from '../../src/melsec/set-reset'
 
 type Bag = Record<string, unknown>
@@ -12,11 +13,25 @@ type Generate = fc.GeneratorValue
 const number = fc.integer({ min: 0, max: 0x7fff })
 const device = (names: readonly string[]) => fc.record({ device: fc.constantFrom(...names), number })
 
+/** Array data of labels: as many words as the length takes. */
+const area = fc.record({ unit: fc.constantFrom(0, 1), length: fc.nat(40) }).chain(({ unit, length }) => {
+  const words = wordsOfArea({ unit: unit === 0 ? 0 : 1, length })
+  return fc.record({
+    unit: fc.constant(unit),
+    length: fc.constant(length),
+    words: fc.array(fc.nat(0xffff), { minLength: words, maxLength: words }),
+  })
+})
+
 /** Values of the value codecs, which any form can say. */
 const VALUES: ReadonlyMap<object, fc.Arbitrary<unknown>> = new Map<object, fc.Arbitrary<unknown>>([
   [deviceAddress, device(['D', 'M', 'X', 'Y', 'W', 'ZR', 'TN', 'SB'])],
   [aCompatibleDevice, device(['D', 'M', 'X', 'R', 'TN'])],
   [setReset, fc.boolean()],
+  [labelName, fc.string({ minLength: 1, maxLength: 20, unit: 'binary' })],
+  [labelData, fc.array(fc.nat(0xffff), { maxLength: 9 })],
+  [labelArea, area],
+  [writtenLabelArea, area],
   [
     jwAddress,
     fc.oneof(

@@ -72,7 +72,7 @@ describe.each(declarationCases)('$title', (declared) => {
           same(messageOf(declared, given, bytes), given.message)
           expect(measured(declared, given, given.message)).toBe(bytes.length)
           // What a client knows before the answer comes.
-          if (side === 'response') expect(measured(declared, given)).toBe(bytes.length)
+          if (side === 'response' && !tellsItsSize(given.shape)) expect(measured(declared, given)).toBe(bytes.length)
         }),
         { numRuns: 100 },
       )
@@ -100,6 +100,13 @@ describe.each(declarationCases)('$title', (declared) => {
     })
   })
 })
+
+/** Whether the size is known only with the message itself. */
+function tellsItsSize(shape: Shape): boolean {
+  return Object.values(shape).some((field) =>
+    field.kind === 'list' ? tellsItsSize(field.item) : field.kind === 'value' && field.codec.variable === true,
+  )
+}
 
 /** As `toEqual`, which takes too long for thousands of long messages. */
 function same(found: unknown, expected: unknown): void {

@@ -2,7 +2,8 @@ import { describe, expect, test } from '@jest/globals'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { modelOf } from '../../src/melsec/model-code'
 import { type FrameName, lackOf, type Profile, profileIds, profiles } from '../../src/melsec/profile'
-import { type Joined, join } from './support'
+import type { SimulatedLabels } from '../../src/simulator/labels'
+import { type Joined, join, type SlmpFrame } from './support'
 
 const M100 = { device: 'M', number: 100 } as const
 const D10 = { device: 'D', number: 10 } as const
@@ -119,23 +120,82 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     expect(asker.ask(commands.clearError, {})).toEqual({})
     expect([plc.errors.led, plc.errors.entries]).toEqual([false, []])
   },
+  readArrayLabels({ asker }) {
+    const asked = {
+      abbreviations: [{ name: 'Line' }],
+      arrays: [
+        { name: '%1.Bits[2]', unit: 0, length: 2 },
+        { name: '%1.Table[1,0]', unit: 1, length: 4 },
+      ],
+    }
+    expect(asker.ask(commands.readArrayLabels, asked)).toEqual({
+      arrays: [
+        { typeId: 1, area: { unit: 0, length: 2, words: [2] } },
+        { typeId: 4, area: { unit: 1, length: 4, words: [0xffff, 4] } },
+      ],
+    })
+  },
+  writeArrayLabels({ plc, asker }) {
+    const area = { unit: 1, length: 4, words: [7, 8] } as const
+    const bits = { unit: 0, length: 3, words: [5] } as const
+    const arrays = [
+      { name: 'Line.Table[0,1]', area },
+      { name: 'Line.Bits[0]', area: bits },
+    ]
+    expect(asker.ask(commands.writeArrayLabels, { abbreviations: [], arrays })).toEqual({})
+    expect(['[0,0]', '[0,1]', '[1,0]'].map((at) => plc.labels.get(`Line.Table${at}`))).toEqual([1, 7, 8])
+    expect([0, 1, 2, 3].map((at) => plc.labels.get(`Line.Bits[${at}]`))).toEqual([true, false, true, true])
+  },
+  readRandomLabels({ asker }) {
+    const names = ['Line.Speed', 'Line.Table[1,1]', 'Line.Text', 'Start.N']
+    const asked = { abbreviations: [], labels: names.map((name) => ({ name })) }
+    expect(asker.ask(commands.readRandomLabels, asked)).toEqual({
+      labels: [
+        { typeId: 6, spare: 0, data: [0, 0x3fc0] },
+        { typeId: 4, spare: 0, data: [4] },
+        { typeId: 9, spare: 0, data: [0x4241, 0, 0] },
+        { typeId: 3, spare: 0, data: [0, 0] },
+      ],
+    })
+  },
+  writeRandomLabels({ plc, asker }) {
+    const labels = [
+      { name: 'Line.Speed', data: [0, 0x4000] },
+      { name: 'Start.S', data: [1] },
+    ]
+    expect(asker.ask(commands.writeRandomLabels, { abbreviations: [], labels })).toEqual({})
+    expect([plc.labels.get('Line.Speed'), plc.labels.get('Start.S')]).toEqual([2, true])
+  },
+}
+
+const labels: SimulatedLabels = {
+  'Line.Speed': { type: 'REAL', value: 1.5 },
+  'Line.Text': { type: 'STRING(4)', value: 'AB' },
+  'Line.Bits': { type: 'BOOL', dimensions: [4], value: [false, false, false, true] },
+  'Line.Table': { type: 'INT', dimensions: [2, 2], value: [1, 2, -1, 4] },
+  Start: { type: 'LONG TIMER' },
 }
 
 const names = Object.keys(commands).filter((name): name is CommandName => name in commands)
 
 interface Variant {
   readonly profile: Profile
-  readonly frame: FrameName
+  readonly frame: SlmpFrame
   readonly code: 'binary' | 'ascii'
 }
+function isSlmp(frame: FrameName): frame is SlmpFrame {
+  return frame !== '1E'
+}
+
 const variants: Variant[] = profileIds.flatMap((id) =>
-  profiles[id].frames.flatMap((frame) =>
-    (['binary', 'ascii'] as const).map((code) => ({ profile: profiles[id], frame, code })),
-  ),
+  // 1E has commands of its own: a-compatible.test.ts.
+  profiles[id].frames
+    .filter(isSlmp)
+    .flatMap((frame) => (['binary', 'ascii'] as const).map((code) => ({ profile: profiles[id], frame, code }))),
 )
 
 describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) => {
-  const joined = () => join({ profile, code, resetAllowed: true }, { frame })
+  const joined = () => join({ profile, code, resetAllowed: true, labels }, { frame })
   const lacking = names.filter((name) => lackOf(profile, name) !== undefined)
 
   test.each(names.filter((name) => !lacking.includes(name)))('%s', (name) => {
@@ -146,10 +206,22 @@ describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) =
     test.each(lacking)('%s is refused: this family lacks it', (name) => {
       const { asker } = joined()
       const context = { words: [{ device: D10 }], doubleWords: [] }
-      const endCode =
-        name === 'executeMonitor'
-          ? asker.endCode(commands.executeMonitor, {}, { context })
-          : asker.endCode(commands.entryMonitorDevice, context)
+      const ask: Readonly<Partial<Record<CommandName, () => number | undefined>>> = {
+        entryMonitorDevice: () => asker.endCode(commands.entryMonitorDevice, context),
+        executeMonitor: () => asker.endCode(commands.executeMonitor, {}, { context }),
+        readArrayLabels: () =>
+          asker.endCode(commands.readArrayLabels, { abbreviations: [], arrays: [{ name: 'A', unit: 1, length: 2 }] }),
+        writeArrayLabels: () =>
+          asker.endCode(commands.writeArrayLabels, {
+            abbreviations: [],
+            arrays: [{ name: 'A', area: { unit: 1, length: 2, words: [0] } }],
+          }),
+        readRandomLabels: () =>
+          asker.endCode(commands.readRandomLabels, { abbreviations: [], labels: [{ name: 'A' }] }),
+        writeRandomLabels: () =>
+          asker.endCode(commands.writeRandomLabels, { abbreviations: [], labels: [{ name: 'A', data: [0] }] }),
+      }
+      const endCode = ask[name]?.()
       expect(endCode).toBe(lackOf(profile, name)?.endCode)
     })
   }

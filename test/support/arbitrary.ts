@@ -5,6 +5,7 @@ import { jwAddress } from '../../src/jw/operand'
 import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible-device'
 import { devices } from '../../src/melsec/device'
 import { deviceAddress, FORM_EXTENDED, FORM_XY_OCTAL, formProblem } from '../../src/melsec/device-codec'
+import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label-codec'
 import { setReset } from '../../src/melsec/set-reset'
 import { anyAddress } from '../melsec/device-bytes'
 
@@ -28,6 +29,16 @@ const numbers = fc.oneof(
 const plainDevices = devices.filter((info) => info.extensionOnly !== true).map((info) => info.name)
 const plainAddress = fc.record({ device: fc.constantFrom(...plainDevices), number: numbers })
 
+/** Array data of labels: as many words as the length takes. */
+const area = fc.record({ unit: fc.constantFrom(0, 1), length: fc.nat(40) }).chain(({ unit, length }) => {
+  const words = wordsOfArea({ unit: unit === 0 ? 0 : 1, length })
+  return fc.record({
+    unit: fc.constant(unit),
+    length: fc.constant(length),
+    words: fc.array(fc.nat(0xffff), { minLength: words, maxLength: words }),
+  })
+})
+
 type Values = (wanted: Wanted) => fc.Arbitrary<unknown>
 
 const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
@@ -46,6 +57,10 @@ const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
         .filter(({ number }) => !ascii || (form & FORM_XY_OCTAL) === 0 || number < 8 ** 8),
   ],
   [setReset, () => fc.boolean()],
+  [labelName, () => fc.string({ minLength: 1, maxLength: 20, unit: 'binary' })],
+  [labelData, () => fc.array(fc.nat(0xffff), { maxLength: 9 })],
+  [labelArea, () => area],
+  [writtenLabelArea, () => area],
   [
     jwAddress,
     () =>

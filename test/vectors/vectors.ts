@@ -198,6 +198,21 @@ export interface Device1cVector extends Known {
   readonly address: { readonly device: DeviceName; readonly number: number }
 }
 
+/** Name of a label, with its length in front when it is `counted`. */
+export interface LabelNameVector extends Known {
+  readonly kind: 'labelName'
+  readonly name: string
+  readonly counted?: true
+  /** What an abbreviated name stands for. */
+  readonly expanded?: string
+}
+
+/** Abbreviation points and the names that are abbreviated. */
+export interface LabelAbbreviationsVector extends Known {
+  readonly kind: 'labelAbbreviations'
+  readonly names: readonly string[]
+}
+
 export type Vector =
   | RequestDataVector
   | PrefixVector
@@ -215,9 +230,11 @@ export type Vector =
   | ControlVector
   | TextVector
   | Device1cVector
+  | LabelNameVector
+  | LabelAbbreviationsVector
 
-/** One file each: SLMP (and 3E, 4E), 1E, serial for format 5, serial for formats 1 and 4, JW 24H and 34H, other JW. */
-export const FAMILIES = ['slmp', 'mc-ethernet-1e', 'mc-serial', 'mc-serial-ascii', 'jw', 'jw-later'] as const
+/** One file each: SLMP (and 3E, 4E), labels of SLMP, 1E, serial for format 5, serial for formats 1 and 4, JW 24H and 34H, other JW. */
+export const FAMILIES = ['slmp', 'labels', 'mc-ethernet-1e', 'mc-serial', 'mc-serial-ascii', 'jw', 'jw-later'] as const
 export type Family = (typeof FAMILIES)[number]
 
 /** The vectors of a family, in the order of the manual. */

@@ -1,8 +1,9 @@
 import { controlCommands } from './control'
 import { deviceCommands } from './device'
+import { labelCommands } from './label'
 
 /** Every declared command of the SLMP set, by name: documentation, palette options and the simulator read this list. */
-export const commands = { ...deviceCommands, ...controlCommands } as const
+export const commands = { ...deviceCommands, ...controlCommands, ...labelCommands } as const
 
 export type Commands = typeof commands
 export type CommandName = keyof Commands

@@ -1,6 +1,7 @@
 import type { LimitRule } from '../limit'
 import type { DeviceForm, Profile } from '../profile'
 import { blockCounts, randomWriteWeights, writtenBlockWeights } from './limits'
+import { noLabels } from './no-labels'
 import { pointsOf } from './ranges'
 
 const forms: readonly DeviceForm[] = ['short', 'extendedShort', 'extendedLong']
@@ -81,13 +82,16 @@ export const iqF: Profile = {
   shortDevices: ['LZ'],
   extensions: ['module'],
   absentDevices: ['V', 'ZR', 'RD', 'DX', 'DY', 'LTS', 'LTC', 'LTN', 'LSTS', 'LSTC', 'LSTN', 'HG'],
-  lacks: (['entryMonitorDevice', 'executeMonitor'] as const).map((command) => ({
-    command,
-    endCode: 0xc059,
-    reason: 'iQ-F CPU modules have no monitor registration.',
-    instead: 'Read the same devices with Read Random (readRandom).',
-    source: 'command list 38.1 has no 0801/0802; measured by others: C059',
-  })),
+  lacks: [
+    ...(['entryMonitorDevice', 'executeMonitor'] as const).map((command) => ({
+      command,
+      endCode: 0xc059,
+      reason: 'iQ-F CPU modules have no monitor registration.',
+      instead: 'Read the same devices with Read Random (readRandom).',
+      source: 'command list 38.1 has no 0801/0802; measured by others: C059',
+    })),
+    ...noLabels('command list 38.1 has no label commands'),
+  ],
   doubtful: [],
   exclusions: [
     {

@@ -3,6 +3,7 @@
 
 import type { LimitRule, Weights } from '../limit'
 import type { DeviceForm } from '../profile'
+import { labelCommandNames } from './no-labels'
 
 /** FX5 and Q/L alike: 12 per word, 14 per double word. */
 export const randomWriteWeights: Weights = { words: 12, doubleWords: 14 }
@@ -94,6 +95,15 @@ const long: readonly DeviceForm[] = ['long', 'extendedLong']
 /** iQ-R: as Q/L in 000x, everything counted double with 0080; half of it in 0002 and 0082. */
 export const iqRLimits: readonly LimitRule[] = [
   ...batchLimits([...short, ...long]),
+  {
+    commands: labelCommandNames,
+    forms: [...short, ...long],
+    // "At most 1920 bytes are sent": counted here with command and subcommand, and in ASCII code as characters.
+    max: 1920,
+    unit: 'bytes',
+    endCode: 0xc075,
+    source: 'SLMP reference manual 5.3, Number of array points; the end code background',
+  },
   {
     commands: ['readRandom', 'entryMonitorDevice'],
     forms: short,

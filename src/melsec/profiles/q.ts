@@ -1,6 +1,7 @@
 import type { DeviceName } from '../device'
 import type { Lack, Profile } from '../profile'
 import { qAndLLimits } from './limits'
+import { noLabels } from './no-labels'
 import { pointsOf } from './ranges'
 
 /** What Q and L share: long devices came with iQ-R. */
@@ -70,7 +71,7 @@ export const q: Profile = {
   shortDevices: [],
   extensions: ['link', 'module'],
   absentDevices: absentOnQAndL,
-  lacks: [],
+  lacks: noLabels('SLMP reference manual 5.3: global labels of GX Works2 cannot be accessed'),
   doubtful: doubtfulOnQAndL,
   exclusions: [],
   limits: qAndLLimits,
