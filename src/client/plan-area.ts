@@ -169,11 +169,16 @@ export function randomCommandOf(area: Area, direction: Direction): CommandName {
   return area.kind === 'bit' && randomBits !== undefined ? randomBits : randomWords
 }
 
+/** Of what its devices are, where a limit depends on it. */
+export function limitedUnit({ info }: Area): 'bit' | 'word' {
+  return info.unit === 'bit' ? 'bit' : 'word'
+}
+
 /** Cells in a row that one request carries. */
 export function capacityOf(protocol: PlanProtocol, direction: Direction, area: Area): number {
   const { direct, form } = area.ways
   if (direct !== undefined) {
-    const bounds = boundsOf(protocol, direct, form)
+    const bounds = boundsOf(protocol, direct, form, limitedUnit(area))
     return largest((cells) => fits(bounds, directLoad(area, cells)))
   }
   const bounds = boundsOf(protocol, randomCommandOf(area, direction), form)

@@ -1,7 +1,7 @@
 // What an item is, for people and editors: plain data.
 import { type AddressOptions, formatDevice, formatParsedDevice } from '../melsec/address'
 import { type DeviceInfo, type DeviceUnit, deviceInfo, type Radix } from '../melsec/device'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 import { formatType, wordsOf } from '../value/value'
 import { formatItem, type ParsedItem } from './item'
 import { planRead } from './plan-read'
@@ -38,7 +38,7 @@ export interface ItemExplanation {
  */
 export function explainItem<Head>(
   item: ParsedItem,
-  protocol: MelsecProtocol<Head>,
+  protocol: ClientProtocol<Head>,
   options: AddressOptions,
 ): ItemExplanation {
   const info = deviceInfo(item.address.device)

@@ -1,6 +1,7 @@
 // Where the values of an item lie: the one description of it that reading, writing and explaining share.
 import { RequestError } from '../errors'
 import { type DeviceInfo, deviceInfo, devicesOfGroup } from '../melsec/device'
+import { exclusionOf } from '../melsec/profile'
 import { formatType, type ValueType, wordsOf } from '../value/value'
 import type { ParsedItem } from './item'
 import { type Area, areaKey, areaOf, type CellKind, capacityOf, type Direction, isModified } from './plan-area'
@@ -93,8 +94,10 @@ export function readLayout(areas: Areas, item: ParsedItem, exact = false): Layou
     return layoutIn(area, item, RECORD_BIT[info.part])
   }
   if (info.unit === 'doubleWord') return layoutIn(areas.find('record', address), item)
-  // The number of long counters is not bound to multiples of 16, and Read Random does not take their contacts.
-  const inBits = exact || (info.unit === 'bit' && info.longOnly === true)
+  // The number of long counters is not bound to multiples of 16, and Read Random does not take their contacts; over 1E
+  // that of counters is not either.
+  const noWords = info.longOnly === true || exclusionOf(areas.protocol.profile, 'readWords', info.name) !== undefined
+  const inBits = exact || (info.unit === 'bit' && noWords)
   return layoutIn(areas.find(inBits ? 'bit' : 'word', address), item)
 }
 

@@ -1,11 +1,11 @@
 // How much one request carries, for the planner: the profile's limits and what the count fields can say.
 import { type CommandName, commands } from '../melsec/commands/commands'
-import { type Limit, limitsOf } from '../melsec/limit'
+import { type Limit, type LimitedUnit, limitsOf } from '../melsec/limit'
 import type { DeviceForm, Profile } from '../melsec/profile'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 
 /** What of a protocol the planner looks at; the head of the frame is none of its business. */
-export type PlanProtocol = Pick<MelsecProtocol<unknown>, 'profile' | 'code'>
+export type PlanProtocol = Pick<ClientProtocol<unknown>, 'profile' | 'code'>
 
 /** Elements per field of a request, named as in `Limit.sum`, e.g. `{ words: 3, doubleWords: 2 }`. */
 export type Load = Readonly<Record<string, number>>
@@ -16,13 +16,18 @@ export type Bound = Pick<Limit, 'sum' | 'max'>
 const known = new WeakMap<Profile, Map<string, readonly Bound[]>>()
 
 /** Everything that bounds one request: the profile's limits and the width of the count fields. Kept per profile. */
-export function boundsOf({ profile, code }: PlanProtocol, command: CommandName, form: DeviceForm): readonly Bound[] {
+export function boundsOf(
+  { profile, code }: PlanProtocol,
+  command: CommandName,
+  form: DeviceForm,
+  of?: LimitedUnit,
+): readonly Bound[] {
   const ofProfile = known.get(profile) ?? new Map<string, readonly Bound[]>()
   known.set(profile, ofProfile)
-  const key = `${command} ${form} ${code}`
+  const key = `${command} ${form} ${code} ${of ?? ''}`
   let bounds = ofProfile.get(key)
   if (bounds === undefined) {
-    bounds = [...limitsOf(profile, command, form, code), ...widthsOf(command)]
+    bounds = [...limitsOf(profile, command, form, code, of), ...widthsOf(command)]
     ofProfile.set(key, bounds)
   }
   return bounds

@@ -5,7 +5,7 @@ import type { CommandName } from '../melsec/commands/commands'
 import { commands } from '../melsec/commands/commands'
 import { explainEndCode } from '../melsec/end-code'
 import { limitsOf } from '../melsec/limit'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 import type { ParsedItem, RefusedItem } from './item'
 import type { Run } from './plan-chunk'
 import { Areas, type Piece, pieceOf, piecesOf, readLayout } from './plan-layout'
@@ -49,7 +49,7 @@ export class ReadShape<Head> {
   /** Items that cannot be asked for. */
   readonly errors = new Map<number, RequestError>()
   readonly #items: readonly (ParsedItem | RefusedItem)[]
-  readonly #protocol: MelsecProtocol<Head>
+  readonly #protocol: ClientProtocol<Head>
   readonly #areas: Areas
   readonly #gap: number
   readonly #address: AddressOptions
@@ -62,7 +62,7 @@ export class ReadShape<Head> {
 
   constructor(
     items: readonly (ParsedItem | RefusedItem)[],
-    protocol: MelsecProtocol<Head>,
+    protocol: ClientProtocol<Head>,
     { gap, xyRadix }: ReadShapeOptions,
   ) {
     if (!Number.isInteger(gap) || gap < 0) {

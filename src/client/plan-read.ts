@@ -6,7 +6,7 @@
  * timeout or a lost connection every item of the request gets that error.
  */
 import { EndCodeError, PlcError, type RequestError } from '../errors'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 import type { PlcValue, Words } from '../value/value'
 import type { ParsedItem, RefusedItem } from './item'
 import { type Leaf, ReadShape, type ReadShapeOptions, type ReadStep } from './plan-read-shape'
@@ -36,18 +36,18 @@ const LANES = 32
  */
 export function planRead<Head>(
   items: readonly (ParsedItem | RefusedItem)[],
-  protocol: MelsecProtocol<Head>,
+  protocol: ClientProtocol<Head>,
   options: ReadShapeOptions,
 ): ReadPlan<Head> {
   return new ReadPlan(items, protocol, options)
 }
 
 export class ReadPlan<Head> {
-  readonly #protocol: MelsecProtocol<Head>
+  readonly #protocol: ClientProtocol<Head>
   readonly #texts: readonly string[]
   readonly #shape: ReadShape<Head>
 
-  constructor(items: readonly (ParsedItem | RefusedItem)[], protocol: MelsecProtocol<Head>, options: ReadShapeOptions) {
+  constructor(items: readonly (ParsedItem | RefusedItem)[], protocol: ClientProtocol<Head>, options: ReadShapeOptions) {
     this.#protocol = protocol
     this.#texts = items.map(({ text }) => text)
     this.#shape = new ReadShape(items, protocol, options)

@@ -6,7 +6,7 @@ import { type CommandName, commands } from '../melsec/commands/commands'
 import type { DeviceAddress } from '../melsec/device'
 import { subcommandOf } from '../melsec/form'
 import type { DeviceForm } from '../melsec/profile'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 import type { Words } from '../value/value'
 import { type Area, addressAt, wordsPerCell } from './plan-area'
 import type { Run } from './plan-chunk'
@@ -51,7 +51,7 @@ export interface PreparedRead<Head> extends Prepared<Head> {
 
 /** @throws RequestError when the request cannot be sent. */
 export function prepareRead<Head>(
-  protocol: MelsecProtocol<Head>,
+  protocol: ClientProtocol<Head>,
   draft: Draft,
   options: AddressOptions,
 ): PreparedRead<Head> {
@@ -81,7 +81,7 @@ export function pointsText(points: number, unit = 'point'): string {
   return `${points} ${unit}${points === 1 ? '' : 's'}`
 }
 
-function readWords<Head>(protocol: MelsecProtocol<Head>, run: Run, options: AddressOptions): PreparedRead<Head> {
+function readWords<Head>(protocol: ClientProtocol<Head>, run: Run, options: AddressOptions): PreparedRead<Head> {
   const { area, from, to } = run
   const points = (to - from) * wordsPerCell(area)
   const exchange = protocol.exchange(commands.readWords, { head: addressAt(area, from), points })
@@ -96,7 +96,7 @@ function readWords<Head>(protocol: MelsecProtocol<Head>, run: Run, options: Addr
   }
 }
 
-function readBits<Head>(protocol: MelsecProtocol<Head>, run: Run, options: AddressOptions): PreparedRead<Head> {
+function readBits<Head>(protocol: ClientProtocol<Head>, run: Run, options: AddressOptions): PreparedRead<Head> {
   const { area, from, to } = run
   const points = to - from
   const exchange = protocol.exchange(commands.readBits, { head: addressAt(area, from), points })
@@ -149,7 +149,7 @@ function scatter(run: Run, into: Scatter): number {
   return 16 * start
 }
 
-function readRandom<Head>(protocol: MelsecProtocol<Head>, runs: readonly Run[]): PreparedRead<Head> {
+function readRandom<Head>(protocol: ClientProtocol<Head>, runs: readonly Run[]): PreparedRead<Head> {
   const all: Scatter = { words: [], doubleWords: [], wordAt: [], doubleWordAt: [], length: 0 }
   const offsets = new Map(runs.map((run) => [run, scatter(run, all)]))
   const { words, doubleWords } = all
@@ -181,7 +181,7 @@ function gathered(
   return words
 }
 
-function readBlock<Head>(protocol: MelsecProtocol<Head>, runs: readonly Run[]): PreparedRead<Head> {
+function readBlock<Head>(protocol: ClientProtocol<Head>, runs: readonly Run[]): PreparedRead<Head> {
   const wordRuns = runs.filter(({ area }) => area.ways.block !== 'bitBlocks')
   const bitRuns = runs.filter(({ area }) => area.ways.block === 'bitBlocks')
   const block = ({ area, from, to }: Run) => ({ head: addressAt(area, from), points: to - from })
@@ -221,7 +221,7 @@ export function bodyBytes<Head>({ exchange }: Prepared<Head>): number {
 }
 
 export function describePrepared<Head>(
-  protocol: MelsecProtocol<Head>,
+  protocol: ClientProtocol<Head>,
   prepared: Prepared<Head>,
   items: readonly string[],
 ): RequestDescription {

@@ -1,6 +1,7 @@
 // Which units share a request. The order in which they were given is kept: a bit that says "the data are there" must not
 // be written before the data.
-import { type Area, directLoad, groupOf, randomCommandOf, randomLoad } from './plan-area'
+import { lackOf } from '../melsec/profile'
+import { type Area, directLoad, groupOf, limitedUnit, randomCommandOf, randomLoad } from './plan-area'
 import { added, boundsOf, fits, type Load, type PlanProtocol } from './plan-limit'
 import type { WriteUnit } from './plan-write-unit'
 
@@ -66,7 +67,7 @@ function rowWith(protocol: PlanProtocol, { row }: OpenBatch, { area, from, to, c
 
 function rowFits(protocol: PlanProtocol, area: Area, cells: number): boolean {
   const { direct, form } = area.ways
-  return direct !== undefined && fits(boundsOf(protocol, direct, form), directLoad(area, cells))
+  return direct !== undefined && fits(boundsOf(protocol, direct, form, limitedUnit(area)), directLoad(area, cells))
 }
 
 function loadWith(protocol: PlanProtocol, { load, units }: OpenBatch, unit: WriteUnit): Load | undefined {
@@ -79,8 +80,11 @@ function loadWith(protocol: PlanProtocol, { load, units }: OpenBatch, unit: Writ
 function randomFits(protocol: PlanProtocol, { area, content }: WriteUnit, load: Load): boolean {
   const { random, form } = area.ways
   if (random === undefined) return false
-  // The words of a masked unit are read first, so they must fit into a Read Random too.
-  if (content.kind === 'masked' && !fits(boundsOf(protocol, 'readRandom', form), load)) return false
+  // The words of a masked unit are read first, so they must fit into a Read Random too, where there is one.
+  if (content.kind === 'masked') {
+    if (lackOf(protocol.profile, 'readRandom') !== undefined) return false
+    if (!fits(boundsOf(protocol, 'readRandom', form), load)) return false
+  }
   return fits(boundsOf(protocol, randomCommandOf(area, 'write'), form), load)
 }
 

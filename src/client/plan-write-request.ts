@@ -3,7 +3,7 @@ import { ClosedError, ConnectionError, PlcError, ProtocolError, TimeoutError } f
 import type { Exchange } from '../link/link'
 import type { AddressOptions } from '../melsec/address'
 import { commands } from '../melsec/commands/commands'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 import { type Area, addressAt } from './plan-area'
 import type { Run } from './plan-chunk'
 import type { Areas } from './plan-layout'
@@ -21,7 +21,7 @@ export interface WriteStep<Head> {
 }
 
 export interface WriteContext<Head> {
-  readonly protocol: MelsecProtocol<Head>
+  readonly protocol: ClientProtocol<Head>
   /** Areas as they are read, for words that are read before they are written. */
   readonly readAreas: Areas
   readonly options: AddressOptions

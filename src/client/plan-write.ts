@@ -4,7 +4,7 @@
  */
 import { ClosedError, EndCodeError, PlcError, RequestError } from '../errors'
 import { explainEndCode } from '../melsec/end-code'
-import type { MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol } from '../melsec/protocol'
 import type { ParsedItem, RefusedItem } from './item'
 import { Areas } from './plan-layout'
 import { about } from './plan-read-shape'
@@ -45,7 +45,7 @@ export interface PlanWriteOptions extends WriteOptions {
  */
 export function planWrite<Head>(
   entries: readonly WriteEntry[],
-  protocol: MelsecProtocol<Head>,
+  protocol: ClientProtocol<Head>,
   options: PlanWriteOptions = {},
 ): WritePlan<Head> {
   return new WritePlan(entries, protocol, options)
@@ -60,7 +60,7 @@ export class WritePlan<Head> {
   readonly #units: readonly WriteUnit[]
   readonly #steps: readonly WriteStep<Head>[]
 
-  constructor(entries: readonly WriteEntry[], protocol: MelsecProtocol<Head>, options: PlanWriteOptions) {
+  constructor(entries: readonly WriteEntry[], protocol: ClientProtocol<Head>, options: PlanWriteOptions) {
     this.#areas = new Areas(protocol, 'write')
     this.#context = {
       protocol,

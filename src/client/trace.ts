@@ -67,7 +67,8 @@ const EMPTY = Buffer.alloc(0)
 /** Makes the entries of one client's trace: puts chunks together to frames, and answers to their requests. */
 export class Tracer {
   readonly #options: TracerOptions
-  readonly #framing: Framing<Head3e>
+  /** `undefined` for 1E, which is told apart by its requests. */
+  readonly #framing: Framing<Head3e> | undefined
   readonly #commands: Readonly<Record<string, Command>>
   /** Whether any command has a secret: without one no frame is searched for it. */
   readonly #secrets: boolean
@@ -78,7 +79,7 @@ export class Tracer {
 
   constructor(options: TracerOptions) {
     this.#options = options
-    this.#framing = frame3e(options.frame, options.code)
+    this.#framing = options.frame === '1E' ? undefined : frame3e(options.frame, options.code)
     this.#commands = options.commands ?? commands
     this.#secrets = Object.values(this.#commands).some(
       ({ request, response }) => hasSecret(request) || hasSecret(response),
@@ -99,7 +100,9 @@ export class Tracer {
   }
 
   #sent(bytes: Buffer): readonly Piece[] {
-    const scanned = attempt(() => this.#framing.request.scan(bytes, () => undefined))
+    const framing = this.#framing
+    if (framing === undefined) return this.#sent1e(bytes)
+    const scanned = attempt(() => framing.request.scan(bytes, () => undefined))
     if (scanned === undefined) return [{ bytes }]
     const { serial = 0, body } = scanned.frame
     this.#requests.delete(serial)
@@ -108,6 +111,23 @@ export class Tracer {
     if (this.#requests.size > KEPT_REQUESTS && oldest !== undefined) this.#requests.delete(oldest)
     if (this.#isRegistration(body)) this.#registration = bytes
     return [{ bytes }]
+  }
+
+  /** One request at a time: what comes next is its answer. */
+  #sent1e(bytes: Buffer): readonly Piece[] {
+    this.#received = EMPTY
+    this.#requests.set(0, bytes)
+    return [{ bytes }]
+  }
+
+  /** 1E has no length: an answer is whole when its request says so. */
+  #received1e(chunk: Buffer): readonly Piece[] {
+    const bytes = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
+    const request = this.#requests.get(0)
+    const piece: Piece = { bytes, ...(request === undefined ? {} : { request }) }
+    const isWhole = this.#explain(piece).fault === undefined
+    this.#received = isWhole || this.#options.kind === 'datagram' || bytes.length > LONGEST_FRAME ? EMPTY : bytes
+    return [this.#received === EMPTY ? piece : { ...piece, unfinished: true }]
   }
 
   /** Whether the body is the request of a command that answers of another one refer to. */
@@ -119,14 +139,16 @@ export class Tracer {
   }
 
   #receivedPieces(chunk: Buffer): readonly Piece[] {
+    const framing = this.#framing
+    if (framing === undefined) return this.#received1e(chunk)
     const pieces: Piece[] = []
     let rest = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
     this.#received = EMPTY
     try {
       while (rest.length > 0) {
-        const used = this.#scan(rest)
+        const used = scanned(framing, rest)
         if (used === undefined) break
-        pieces.push(this.#answer(rest.subarray(0, used)))
+        pieces.push(this.#answer(framing, rest.subarray(0, used)))
         rest = rest.subarray(used)
       }
     } catch (error) {
@@ -139,17 +161,10 @@ export class Tracer {
     return [...pieces, { bytes: rest, unfinished: true }]
   }
 
-  /** Bytes of the frame at the front; `undefined` when it is not complete. @throws ProtocolError */
-  #scan(bytes: Buffer): number | undefined {
-    const { request, response } = this.#framing
-    const side = response.isUnsolicited?.(bytes) === true ? request : response
-    return side.scan(bytes, () => undefined)?.used
-  }
-
-  #answer(bytes: Buffer): Piece {
-    const scanned = attempt(() => this.#framing.response.scan(bytes, () => undefined))
-    const serial = scanned?.frame.serial ?? 0
-    const request = scanned === undefined ? undefined : this.#requests.get(serial)
+  #answer(framing: Framing<Head3e>, bytes: Buffer): Piece {
+    const answer = attempt(() => framing.response.scan(bytes, () => undefined))
+    const serial = answer?.frame.serial ?? 0
+    const request = answer === undefined ? undefined : this.#requests.get(serial)
     this.#requests.delete(serial)
     return {
       bytes,
@@ -161,6 +176,7 @@ export class Tracer {
   #explain({ bytes, request, registration, unfinished }: Piece): FrameExplanation {
     const { profile, xyRadix, asciiXy, asciiZr, code } = this.#options
     const options: ExplainFrameOptions = {
+      ...(this.#framing === undefined ? { frame: '1E' } : {}),
       code,
       profile,
       commands: this.#commands,
@@ -174,6 +190,12 @@ export class Tracer {
     if (unfinished === undefined) return explanation
     return { ...explanation, notes: [...explanation.notes, 'The rest of this frame is in a later chunk.'] }
   }
+}
+
+/** Bytes of the frame at the front; `undefined` when it is not complete. @throws ProtocolError */
+function scanned({ request, response }: Framing<Head3e>, bytes: Buffer): number | undefined {
+  const side = response.isUnsolicited?.(bytes) === true ? request : response
+  return side.scan(bytes, () => undefined)?.used
 }
 
 /** The chunk without its secrets. The pieces end with it, but the first may have begun in an earlier chunk. */

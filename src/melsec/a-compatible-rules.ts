@@ -83,11 +83,6 @@ export const aCompatibleFamilies = {
 
 export type ACompatibleFamilyId = keyof typeof aCompatibleFamilies
 
-/** Whether a PLC of this profile takes the 1E frame. */
-export function takes1e({ id }: { readonly id: string }): boolean {
-  return Object.hasOwn(aCompatibleFamilies, id)
-}
-
 /** Most points of one request: in bit units bits, in word units words; words of a bit device hold 16 of it. */
 export interface ACompatibleLimit {
   readonly command: ACompatibleCommandName

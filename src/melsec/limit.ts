@@ -11,6 +11,9 @@ import type { DeviceForm, Profile } from './profile'
  */
 export type LimitUnit = 'points' | 'blocks' | 'weightedPoints' | 'bytes'
 
+/** 1E: a request carries fewer words of bit devices than of the others. */
+export type LimitedUnit = 'bit' | 'word'
+
 /**
  * Weight of each request field. A number field counts its value, a list or bulk field its length;
  * `wordBlocks.points` is the sum over the list (value of a number, length of a bulk field).
@@ -22,6 +25,8 @@ export interface Limit {
   readonly command: CommandName
   readonly form: DeviceForm
   readonly code: DataCode
+  /** It is about devices of this unit only. */
+  readonly of?: LimitedUnit
   readonly sum: Weights
   readonly max: number
   readonly min: number
@@ -36,6 +41,8 @@ export interface Limit {
 export interface LimitRule {
   readonly commands: readonly CommandName[]
   readonly forms: readonly DeviceForm[]
+  /** Devices it is about; without it all. */
+  readonly of?: LimitedUnit
   /** Weights; without it every point counts once ({@link pointFields}). */
   readonly sum?: Weights
   /** In binary code and for a device specification that is not extended. */
@@ -73,7 +80,8 @@ function limitOf(rule: LimitRule, command: CommandName, form: DeviceForm, code: 
   if (sum === undefined) throw new Error(`limit rule for ${command} without a sum`)
   // "Counts n times, at most max" is the same as "at most max / n", and the figure a user can check against.
   const max = Math.floor(rule.max / factorOf(rule, form, code))
-  return { command, form, code, sum, max, min: 1, unit: rule.unit, endCode: rule.endCode, source: rule.source }
+  const { unit, endCode, source, of } = rule
+  return { command, form, code, ...(of === undefined ? {} : { of }), sum, max, min: 1, unit, endCode, source }
 }
 
 function sameSum(a: Limit, b: Limit): boolean {
@@ -97,15 +105,25 @@ const memo = new WeakMap<Profile, Map<string, readonly Limit[]>>()
  * The limits of one command; all of them hold at the same time (`readBlock`: blocks and points).
  * Empty for a command without any. The same frozen-by-convention array each time, so it may be called per request.
  *
+ * @param of the unit of the devices; without it the limits of both are given, of which the lower one counts
  * @example limitsOf(resolveProfile('iq-f'), 'readWords', 'short', 'ascii')[0].max // 480
  */
-export function limitsOf(profile: Profile, command: CommandName, form: DeviceForm, code: DataCode): readonly Limit[] {
+export function limitsOf(
+  profile: Profile,
+  command: CommandName,
+  form: DeviceForm,
+  code: DataCode,
+  of?: LimitedUnit,
+): readonly Limit[] {
   const known = memo.get(profile) ?? new Map<string, readonly Limit[]>()
   memo.set(profile, known)
-  const key = `${command} ${form} ${code}`
+  const key = `${command} ${form} ${code} ${of ?? ''}`
   let limits = known.get(key)
   if (limits === undefined) {
-    const rules = profile.limits.filter((rule) => rule.commands.includes(command) && rule.forms.includes(form))
+    const concerns = (rule: LimitRule) => of === undefined || rule.of === undefined || rule.of === of
+    const rules = profile.limits.filter(
+      (rule) => rule.commands.includes(command) && rule.forms.includes(form) && concerns(rule),
+    )
     limits = withoutHigher(rules.map((rule) => limitOf(rule, command, form, code)))
     known.set(key, limits)
   }

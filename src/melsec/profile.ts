@@ -13,7 +13,7 @@ import { withOverrides } from './profiles/override'
 import { q } from './profiles/q'
 
 export type ProfileId = 'iq-r' | 'iq-f' | 'q' | 'l' | 'generic'
-export type FrameName = '3E' | '4E'
+export type FrameName = '3E' | '4E' | '1E'
 export type TransportName = 'tcp' | 'udp'
 /** Device specification: the subcommands 000x, 0002/0003 (iQ-R), 0080/0081 and 0082/0083. */
 export type DeviceForm = 'short' | 'long' | 'extendedShort' | 'extendedLong'

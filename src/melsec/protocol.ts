@@ -82,6 +82,9 @@ function unknownDigits(options: MelsecProtocolOptions<unknown>): UnknownDigits[]
   return unknown
 }
 
+/** What a client needs of a protocol: requests of the SLMP set ready to be sent, in whatever frame. */
+export type ClientProtocol<Head> = Pick<MelsecProtocol<Head>, 'framing' | 'profile' | 'code' | 'exchange'>
+
 export class MelsecProtocol<Head> {
   readonly framing: Framing<Head>
   readonly profile: Profile

@@ -6,12 +6,9 @@ import { frame1e, type Head1e } from '../melsec/frame-1e'
 import { frame3e, type Head3e } from '../melsec/frame-3e'
 import type { FrameName } from '../melsec/profile'
 
-/** Frames a port can take: those of the SLMP set, and 1E with its own. */
-export type PortFrame = FrameName | '1E'
-
 /** A head that says in which frame it came, so that the answer goes out in the same one. */
 export type AnyHead =
-  | { readonly frame: FrameName; readonly head: Head3e }
+  | { readonly frame: '3E' | '4E'; readonly head: Head3e }
   | { readonly frame: '1E'; readonly head: Head1e }
 
 /** Subheaders of 1E requests go up to this; those of 3E and 4E are 50 and 54. */
@@ -22,14 +19,14 @@ const LAST_COMMAND_1E = 0x1f
  * `unreadable` is told of bytes that are none of them; nothing answers those. `length1e`: where a 1E request ends.
  */
 export function anyFrame(
-  frames: readonly PortFrame[],
+  frames: readonly FrameName[],
   code: DataCode,
   unreadable: (bytes: Buffer) => void,
   length1e: BodyLength<Head1e> = () => undefined,
 ): Framing<AnyHead> {
-  const framings = { '3E': frame3e('3E', code), '4E': frame3e('4E', code) } satisfies Record<FrameName, unknown>
+  const framings = { '3E': frame3e('3E', code), '4E': frame3e('4E', code) }
   const aCompatible = frame1e(code)
-  const read = (name: PortFrame, bytes: Buffer): Scanned<RequestFrame<AnyHead>> | undefined => {
+  const read = (name: FrameName, bytes: Buffer): Scanned<RequestFrame<AnyHead>> | undefined => {
     if (name === '1E') {
       check1e(bytes, code)
       const scanned = aCompatible.request.scan(bytes, length1e)

@@ -2,10 +2,11 @@
 import type { Effect } from '../codec/codec'
 import { Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
+import type { FrameName } from '../melsec/profile'
 import { ownStation } from '../melsec/route'
 import type { Clock } from '../transport/clock'
 import type { ServerConnection } from '../transport/transport'
-import { type AnyHead, anyFrame, type PortFrame } from './any-frame'
+import { type AnyHead, anyFrame } from './any-frame'
 import { routeRefusal } from './check'
 import type { FaultSubject, Faults } from './faults'
 import type { Call } from './handlers'
@@ -20,7 +21,7 @@ export interface RequestEvent {
   readonly connection: number
   /** The client, e.g. `127.0.0.1:50231`. */
   readonly remote: string
-  readonly frame: PortFrame
+  readonly frame: FrameName
   /** Name of the command; undefined when it is none that is declared, or its data are wrong. */
   readonly command: CommandName | undefined
   readonly effect: Effect | undefined
@@ -37,7 +38,7 @@ export type HeldAnswers = { readonly until: 'request' | 'answer'; readonly send:
 export interface Shared {
   readonly plc: Plc
   readonly ports: Ports
-  readonly frames: readonly PortFrame[]
+  readonly frames: readonly FrameName[]
   readonly faults: Faults
   readonly clock: Clock
   /** ms from a request to the END processing that answers it, in RUN. */

@@ -1,12 +1,11 @@
 // What a simulated PLC is made of: options, their defaults and their checks.
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
-import { type OddBits, takes1e } from '../melsec/a-compatible-rules'
+import type { OddBits } from '../melsec/a-compatible-rules'
 import { type DeviceName, findDevice } from '../melsec/device'
 import { modelOf } from '../melsec/model-code'
-import { type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
+import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
 import { type Clock, realClock } from '../transport/clock'
-import type { PortFrame } from './any-frame'
 import type { Call } from './handlers'
 import { LabelTable, type SimulatedLabels } from './labels'
 import type { ExtensionMemory } from './memory'
@@ -23,8 +22,8 @@ export interface PlcSimulatorOptions {
   readonly profileOverrides?: ProfileOverrides
   /** Communication data code of the port. The other one is answered by silence. Default `binary`. */
   readonly code?: DataCode
-  /** Frames the port takes, told apart by their subheaders. Default: all of the profile; iq-f also takes 1E. */
-  readonly frames?: readonly PortFrame[]
+  /** Frames the port takes, told apart by their subheaders. Default: all of the profile. */
+  readonly frames?: readonly FrameName[]
   /** ASCII code on a family with octal X and Y: the port's setting. Default `octal` there. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** ASCII code: digits of ZR. Default `decimal`. */
@@ -69,7 +68,7 @@ export interface PlcSimulatorOptions {
 export interface Settings {
   readonly profile: Profile
   readonly code: DataCode
-  readonly frames: readonly PortFrame[]
+  readonly frames: readonly FrameName[]
   readonly asciiXy: 'octal' | 'hexadecimal'
   readonly asciiZr: 'decimal' | 'hexadecimal'
   readonly oddBits: OddBits
@@ -144,11 +143,9 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
   return settings
 }
 
-function framesOf(profile: Profile, given: readonly PortFrame[] | undefined): readonly PortFrame[] {
-  const all: readonly PortFrame[] = [...profile.frames, ...(takes1e(profile) ? (['1E'] as const) : [])]
-  const frames = given ?? all
+function framesOf(profile: Profile, frames: readonly FrameName[] = profile.frames): readonly FrameName[] {
   if (frames.length === 0) bad('frames', 'A port takes at least one frame.')
-  return frames.map((frame) => oneOf('frames', frame, all))
+  return frames.map((frame) => oneOf('frames', frame, profile.frames))
 }
 
 function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['model'] {

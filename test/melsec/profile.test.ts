@@ -145,7 +145,7 @@ describe('every profile', () => {
 describe('what the families are like', () => {
   test.each([
     ['iq-r', 16, '4E', ['4E', '3E'], 'long', ['short', 'long', 'extendedShort', 'extendedLong']],
-    ['iq-f', 8, '3E', ['3E'], 'short', ['short', 'extendedShort', 'extendedLong']],
+    ['iq-f', 8, '3E', ['3E', '1E'], 'short', ['short', 'extendedShort', 'extendedLong']],
     ['q', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
     ['l', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
     ['generic', 16, '3E', ['4E', '3E'], 'short', ['short', 'long', 'extendedShort', 'extendedLong']],
@@ -286,7 +286,7 @@ describe('resolveProfile', () => {
     expect(resolveProfile('iq-r', { frame: '3E' }).frame).toBe('3E')
     const error = caught(() => resolveProfile('iq-f', { frame: '4E' }))
     expect(error).toMatchObject({ code: 'BAD_OPTION', field: 'profile.frame' })
-    expect(error.message).toBe('MELSEC iQ-F has no 4E frame. Use 3E.')
+    expect(error.message).toBe('MELSEC iQ-F has no 4E frame. Use 3E or 1E.')
   })
 
   test.each<[string, Parameters<typeof resolveProfile>[1]]>([

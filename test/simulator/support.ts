@@ -31,8 +31,11 @@ export function lenient(profile: Profile): Profile {
   }
 }
 
+/** Frames of the SLMP set. */
+export type SlmpFrame = Exclude<FrameName, '1E'>
+
 export interface AskerOptions {
-  readonly frame?: FrameName
+  readonly frame?: SlmpFrame
   readonly code?: 'binary' | 'ascii'
   readonly route?: Partial<Route>
   readonly connect?: ConnectOptions
@@ -49,7 +52,7 @@ export class Asker {
   readonly close: () => void
 
   constructor(plc: PlcSimulator, options: AskerOptions = {}) {
-    const { frame = plc.profile.frame, code = 'binary', route, connect = {} } = options
+    const { frame = plc.profile.frame === '4E' ? '4E' : '3E', code = 'binary', route, connect = {} } = options
     const kind = connect.kind ?? 'stream'
     const framing = frame3e(frame, code)
     this.#head = { route: completeRoute(route), timer: 0 }

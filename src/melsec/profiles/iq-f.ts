@@ -72,7 +72,7 @@ export const iqF: Profile = {
   title: 'MELSEC iQ-F',
   series: 'FX5S, FX5UJ, FX5U and FX5UC CPU modules by their Ethernet port',
   xyRadix: 8,
-  frames: ['3E'],
+  frames: ['3E', '1E'],
   frame: '3E',
   codes: ['binary', 'ascii'],
   code: 'binary',

@@ -1,0 +1,94 @@
+// What is left of a profile when its PLC is spoken to in 1E frames: fewer commands and devices, and smaller requests.
+import type { ACompatibleCommandName } from '../a-compatible'
+import { type ACompatibleWindow, aCompatibleLimitSource, aCompatibleLimits } from '../a-compatible-rules'
+import type { CommandName } from '../commands/commands'
+import { devices } from '../device'
+import type { LimitRule, Weights } from '../limit'
+import type { DeviceExclusion, DeviceForm, Lack, Profile } from '../profile'
+
+/** Commands of the SLMP set and what says the same in 1E. */
+export const over1e = {
+  readBits: 'readBits',
+  readWords: 'readWords',
+  writeBits: 'writeBits',
+  writeWords: 'writeWords',
+  writeRandomBits: 'writeRandomBits',
+  writeRandomWords: 'writeRandomWords',
+  remoteRun: 'remoteRun',
+  remoteStop: 'remoteStop',
+  readTypeName: 'readPcType',
+  selfTest: 'loopback',
+} as const satisfies Readonly<Partial<Record<CommandName, ACompatibleCommandName>>>
+
+export type Over1eName = keyof typeof over1e
+
+export function isOver1e(name: string): name is Over1eName {
+  return Object.hasOwn(over1e, name)
+}
+
+/** LCS and LCN have a long form only in the SLMP set; 1E has no forms, so both names of one mean the same here. */
+const forms: readonly DeviceForm[] = ['short', 'long']
+/** Too many points, or a device behind the last one. */
+const TOO_MANY = 0x57
+const NO_DEVICE = 0x56
+const NO_COMMAND = 0x50
+const source = aCompatibleLimitSource
+
+function lackOf(command: CommandName): Lack {
+  return {
+    command,
+    endCode: NO_COMMAND,
+    reason: 'A 1E frame has no such command.',
+    instead: 'Use a 3E frame if the PLC takes it.',
+    source,
+  }
+}
+
+/** Words of double words count twice: they go out as two words. */
+const randomWords: Weights = { words: 1, doubleWords: 2 }
+
+function ruleOf({ command, of, max }: (typeof aCompatibleLimits)[number]): LimitRule[] {
+  // The only command of 1E with a list of both kinds of devices has the same limit for them.
+  if (command === 'writeRandomWords' && of === 'bit') return []
+  const name = Object.keys(over1e).find((key) => isOver1e(key) && over1e[key] === command)
+  if (name === undefined || !isOver1e(name)) return []
+  const random = command === 'writeRandomWords' ? { sum: randomWords } : { of }
+  return [{ commands: [name], forms, ...random, max, unit: 'points', endCode: TOO_MANY, source }]
+}
+
+function exclusion(commands: readonly CommandName[], device: 'CS' | 'LCS' | 'LCN', reason: string): DeviceExclusion {
+  return { commands, devices: [device], endCode: NO_DEVICE, reason, instead: 'Use bit units, or Write.', source }
+}
+
+const exclusions: readonly DeviceExclusion[] = [
+  exclusion(['readWords', 'writeWords', 'writeRandomWords'], 'CS', 'Counters end at 199, in the middle of a word.'),
+  exclusion(['readWords', 'writeWords', 'writeRandomWords'], 'LCS', 'They do not start at a multiple of 16.'),
+  exclusion(['writeRandomWords'], 'LCN', 'Test does not write counters of 32 bits.'),
+]
+
+/** The profile of the same PLC over 1E. */
+export function profileOver1e(
+  profile: Profile,
+  windows: readonly ACompatibleWindow[],
+  lacking: readonly CommandName[],
+): Profile {
+  const reached = new Set(windows.map(({ device }) => device))
+  return {
+    ...profile,
+    title: `${profile.title} in a 1E frame`,
+    frames: ['1E'],
+    frame: '1E',
+    forms,
+    form: 'short',
+    shortDevices: [],
+    extensions: [],
+    absentDevices: devices.map(({ name }) => name).filter((name) => !reached.has(name)),
+    lacks: lacking.map(lackOf),
+    doubtful: [],
+    exclusions,
+    limits: aCompatibleLimits.flatMap(ruleOf),
+    remote: { ...profile.remote, clearModes: [0] },
+    subcommands: {},
+    sources: { ...profile.sources, forms: source, extensions: source, absentDevices: source },
+  }
+}
