@@ -35,6 +35,7 @@ export interface ConnectionOptions {
   readonly localPort?: number
   readonly timeout: number
   readonly connectTimeout: number
+  readonly password?: boolean
   readonly trace?: boolean
   readonly json?: boolean
 }
@@ -127,6 +128,7 @@ export function addConnectionOptions(command: Command): Command {
         "X and Y are written in octal (8) or hexadecimal (16); default: the profile's",
       ).argParser(radix),
     )
+    .addOption(new Option('--password', `ask for the remote password; without it ${PASSWORD} is used, if set`))
     .optionsGroup('Another station or CPU:')
     .addOption(new Option('--network <number>', 'another network').argParser(whole(0, 255)))
     .addOption(new Option('--station <number>', 'another station of that network').argParser(whole(0, 255)))
@@ -181,6 +183,16 @@ function moduleIo(text: string): number {
 
 /** Names the PLC when no option does. */
 const VARIABLE = 'MELSEC_JW_PLC'
+
+/** Remote password: not an option, because the arguments of a program are seen by everybody on the computer. */
+const PASSWORD = 'MELSEC_JW_PASSWORD'
+
+/** The remote password: from the environment, or typed when `--password` says so. */
+async function passwordOf(terminal: Terminal, options: ConnectionOptions): Promise<string | undefined> {
+  if (options.password !== true) return process.env[PASSWORD] || undefined
+  if (!terminal.interactive) throw badPeer(`This is no terminal to ask on. Set ${PASSWORD} instead.`, 'password')
+  return terminal.ask('Remote password: ', { hidden: true })
+}
 
 /** Address and port: both from the options, or both from the environment, never one from each. */
 export function peerOf({ plc, host, port }: ConnectionOptions): { readonly host: string; readonly port: number } {
@@ -259,7 +271,8 @@ export async function withClient<T>(
   allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'>,
   work: (client: MelsecClient) => Promise<T>,
 ): Promise<T> {
-  const client = createMelsecClient(clientOptions(options, allow))
+  const password = await passwordOf(terminal, options)
+  const client = createMelsecClient({ ...clientOptions(options, allow), ...given({ password }) })
   if (options.trace === true) {
     client.on('trace', ({ time, direction, text }) => {
       terminal.error(`${new Date(time).toISOString()} ${direction}\n${text}\n`)

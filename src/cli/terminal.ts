@@ -1,5 +1,6 @@
 // Where the command line writes to and whom it asks.
 import { createInterface } from 'node:readline/promises'
+import { Writable } from 'node:stream'
 
 export interface Terminal {
   /** Results. */
@@ -8,8 +9,8 @@ export interface Terminal {
   error(text: string): void
   /** Whether somebody is there to answer a question. */
   readonly interactive: boolean
-  /** The answer that was typed; empty when the input ended. */
-  ask(question: string): Promise<string>
+  /** The answer that was typed; empty when the input ended. `hidden`: it does not appear on the screen. */
+  ask(question: string, options?: { readonly hidden?: boolean }): Promise<string>
   /** All of the standard input. */
   input(): Promise<string>
 }
@@ -21,13 +22,16 @@ export function processTerminal(): Terminal {
     error: (text) => void process.stderr.write(`${text}\n`),
     // The question goes to stderr, so that the results can be piped.
     interactive: process.stdin.isTTY === true && process.stderr.isTTY === true,
-    ask: async (question) => {
-      const lines = createInterface({ input: process.stdin, output: process.stderr })
+    ask: async (question, { hidden = false } = {}) => {
+      if (hidden) process.stderr.write(question)
+      const output = hidden ? nowhere() : process.stderr
+      const lines = createInterface({ input: process.stdin, output, terminal: process.stderr.isTTY === true })
       const ended = new Promise<string>((resolve) => lines.once('close', () => resolve('')))
       try {
-        return await Promise.race([lines.question(question), ended])
+        return await Promise.race([lines.question(hidden ? '' : question), ended])
       } finally {
         lines.close()
+        if (hidden) process.stderr.write('\n')
       }
     },
     input: async () => {
@@ -36,6 +40,11 @@ export function processTerminal(): Terminal {
       return Buffer.concat(chunks).toString('utf8')
     },
   }
+}
+
+/** Takes what would appear on the screen. */
+function nowhere(): Writable {
+  return new Writable({ write: (_chunk, _encoding, done) => done() })
 }
 
 /**

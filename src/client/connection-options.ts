@@ -1,5 +1,5 @@
 // What a connection is told and what it tells.
-import type { PlcError } from '../errors'
+import type { EndCodeError, PlcError } from '../errors'
 import type { Exchange, Framing, RequestFrame } from '../link/link'
 import type { Clock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
@@ -34,6 +34,16 @@ export interface Silence {
   readonly answeredBefore: boolean
 }
 
+/** How a locked PLC is opened: before everything else on each connection. */
+export interface Unlocking<Head> {
+  /** `undefined`: there is nothing to unlock. */
+  readonly exchange: () => Exchange<Head, unknown> | undefined
+  /** The refusal would be repeated, and the PLC lock out: no further attempt before `retry()`. */
+  readonly isFinal: (error: EndCodeError) => boolean
+  /** A request was refused because the PLC is locked (again). */
+  readonly isLocked: (error: EndCodeError) => boolean
+}
+
 export interface ConnectionOptions<Head> {
   readonly framing: Framing<Head>
   readonly openTransport: OpenTransport
@@ -45,7 +55,9 @@ export interface ConnectionOptions<Head> {
   readonly connectTimeout: number
   /** Default deadline of a call, ms. */
   readonly timeout: number
-  /** The first request on a new connection. Any answer to it, also a refusal, proves that the PLC is there. */
+  /** Opens a PLC that is locked by a remote password. */
+  readonly unlocking?: Unlocking<Head>
+  /** The first request on a new connection, behind unlocking. Any answer to it, also a refusal, proves that the PLC is there. */
   readonly probe: () => Exchange<Head, unknown>
   /** Ranked causes, most likely first. */
   readonly explainSilence: (silence: Silence) => readonly string[]

@@ -1,6 +1,6 @@
 // One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
 // It knows no protocol family; Exchange and Framing bring that.
-import { ClosedError, type PlcError } from '../errors'
+import { ClosedError, type ConnectionError, type PlcError } from '../errors'
 import { type Exchange, type ResponseFrame, SerialNumbers } from '../link/link'
 import type { Clock } from '../transport/clock'
 import { Alarm } from './alarm'
@@ -29,6 +29,7 @@ export class Connection<Head> {
   #answeredBefore = false
   #since: number
   #generation = 0
+  #finishing: Promise<void> | undefined
   /** Set by the owner to see every frame; costs nothing while unset. */
   onTrace: ((frame: TracedFrame) => void) | undefined
 
@@ -123,13 +124,17 @@ export class Connection<Head> {
 
   #refusalOf({ title }: Exchange<Head, unknown>, signal: AbortSignal | undefined): PlcError | undefined {
     const { name, hopeful, error } = this.#supervisor
-    if (name === 'closed') return failure.closedBeforeSending(title)
+    if (name === 'closed' || this.#finishing !== undefined) return failure.closedBeforeSending(title)
     if (signal?.aborted === true) {
       return new ClosedError('ABORTED', `${title} was aborted before it was sent.`, 'notSent', signal.reason)
     }
-    if (name !== 'connected' && !hopeful) return failure.offline(title, error)
+    if (name !== 'connected' && !hopeful) return this.#offline(title, error)
     const waiting = this.#waiting()
     return waiting < this.#options.queueLimit ? undefined : failure.queueFull(title, waiting)
+  }
+
+  #offline(title: string, error: PlcError | undefined): ConnectionError {
+    return this.#supervisor.givenUp ? failure.refusedToUnlock(title, error) : failure.offline(title, error)
   }
 
   /** Requests that wait for the connection or for their turn on it. */
@@ -138,6 +143,8 @@ export class Connection<Head> {
   }
 
   #start(call: Call<Head>): void {
+    const expired = this.#expired()
+    if (expired !== undefined) this.#lost(expired)
     if (this.#supervisor.name === 'connected' && this.#line !== undefined) {
       this.#line.submit(call)
       this.#line.flush()
@@ -156,6 +163,29 @@ export class Connection<Head> {
     if (call.sends) this.#counters.add('aborted')
     call.fail(call.aborted(sent ? 'unknown' : 'notSent'))
     this.#line?.flush()
+  }
+
+  #expired(): PlcError | undefined {
+    return this.#supervisor.name === 'connected' ? this.#line?.expired() : undefined
+  }
+
+  /** What the PLC refused for good has been corrected: attempts go on. */
+  retry(): void {
+    this.#line?.correct()
+    if (this.#supervisor.retry()) this.#open()
+  }
+
+  /** Sends a last request if the PLC is there, takes nothing more, and ends everything. */
+  finish(last: Exchange<Head, unknown>, timeout: number): Promise<void> {
+    if (this.#finishing !== undefined) return this.#finishing
+    if (this.#supervisor.name !== 'connected' || this.#expired() !== undefined) {
+      this.close()
+      return Promise.resolve()
+    }
+    // It is a courtesy: whatever becomes of it, the connection ends now.
+    const sent = this.request(last, { timeout }).catch(() => {})
+    this.#finishing = sent.then(() => this.close())
+    return this.#finishing
   }
 
   /** Ends everything. Calls in flight are settled with `CLOSED`. */
@@ -210,13 +240,14 @@ export class Connection<Head> {
     if (this.#supervisor.name === 'closed') return
     const line = this.#line
     this.#line = undefined
-    this.#supervisor.lost(error, this.#clock.now(), line?.restOfPort() ?? 0)
+    const pause = line?.isFinal(error) === true ? Number.POSITIVE_INFINITY : (line?.restOfPort() ?? 0)
+    this.#supervisor.lost(error, this.#clock.now(), pause)
     if (line?.isOpen === true) this.#counters.add('disconnects')
     line?.end((call, sent) => this.#handedBack(call, sent, error))
     if (!this.#supervisor.hopeful) {
       const held = this.#held
       this.#held = []
-      for (const call of held) call.fail(call.sends ? failure.offline(call.exchange.title, error) : error)
+      for (const call of held) call.fail(call.sends ? this.#offline(call.exchange.title, error) : error)
     }
     this.#tellState()
     this.#schedule()

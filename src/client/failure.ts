@@ -9,6 +9,26 @@ export function offline(title: string, reason: PlcError | undefined): Connection
   return new ConnectionError('OFFLINE', message, 'notSent', reason, causes)
 }
 
+/** As `offline`, when no further attempt is made. */
+export function refusedToUnlock(title: string, reason: PlcError | undefined): ConnectionError {
+  const message =
+    `${title} was not sent: the PLC refused the remote password. It is not sent again, because the PLC would lock out; ` +
+    `correct it with setPassword(). ${reason?.message ?? ''}`
+  return new ConnectionError('OFFLINE', message, 'notSent', reason)
+}
+
+/** The PLC has locked the port on a connection that had unlocked it. */
+export function lockedAgain(peer: string, reason: PlcError): ConnectionError {
+  const message = `${peer} is locked by the remote password again; the connection is made anew to unlock it.`
+  return new ConnectionError('DISCONNECTED', message, 'notSent', reason)
+}
+
+/** A PLC locks a UDP connection after 10 minutes without traffic. */
+export function unlockExpired(peer: string): ConnectionError {
+  const message = `${peer} was idle for so long that the PLC has locked it by now; it is unlocked anew.`
+  return new ConnectionError('DISCONNECTED', message, 'notSent')
+}
+
 export function closedBeforeSending(title: string): ClosedError {
   return new ClosedError('CLOSED', `${title} was not sent: the client is closed.`)
 }

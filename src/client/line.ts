@@ -2,9 +2,10 @@
 import { type ConnectionError, EndCodeError, endsConnection, type PlcError, ProtocolError } from '../errors'
 import { type ResponseFrame, type SerialNumbers, Session, type SessionEvent } from '../link/link'
 import type { Transport } from '../transport/transport'
-import { Call } from './call'
+import type { Call } from './call'
 import type { ConnectionOptions, TracedFrame } from './connection-options'
 import * as failure from './failure'
+import { Opening } from './opening'
 import type { Counters } from './statistics'
 import { tell } from './tell'
 
@@ -35,7 +36,7 @@ export class Line<Head> {
   readonly #owner: LineOwner
   #transport: Transport | undefined
   #session: Session<Head, Call<Head>> | undefined
-  #probe: Call<Head> | undefined
+  readonly #opening: Opening<Head>
   #openBy: number | undefined
   #silent = 0
   #receivedAnything = false
@@ -44,6 +45,7 @@ export class Line<Head> {
   constructor(options: ConnectionOptions<Head>, owner: LineOwner) {
     this.#options = options
     this.#owner = owner
+    this.#opening = new Opening(options)
   }
 
   /** Whether bytes can be sent; the PLC need not have answered yet. */
@@ -94,25 +96,25 @@ export class Line<Head> {
   }
 
   #opened(transport: Transport): void {
-    const { framing, inFlight, timeout, connectTimeout, clock, probe } = this.#options
+    const { framing, inFlight, clock } = this.#options
     const { serials } = this.#owner
-    const now = clock.now()
     this.#openBy = undefined
     this.#session = new Session<Head, Call<Head>>(framing, { kind: transport.kind, window: inFlight, serials })
-    const exchange = probe()
-    // Nobody awaits the probe; how it ends is seen in #answered and #timedOut.
-    this.#probe = new Call(exchange, now + Math.min(timeout, connectTimeout), {
-      answer: (frame) => {
-        if (frame !== undefined) exchange.decode(frame)
-      },
-      fail: () => {},
-    })
-    this.submit(this.#probe)
+    this.submit(this.#opening.begin(clock.now()))
     this.flush()
+  }
+
+  /** A first request was answered. */
+  #goOn(refusal: PlcError | undefined): void {
+    const next = this.#opening.next(refusal, this.#options.clock.now())
+    if (next === undefined) this.#owner.verified()
+    else if ('exchange' in next) this.submit(next)
+    else this.#lost(next)
   }
 
   #received(bytes: Buffer): void {
     this.#receivedAnything = true
+    this.#opening.heard(this.#options.clock.now())
     this.#owner.counters.add('bytesReceived', bytes.length)
     this.#owner.trace('received', bytes)
     if (this.#ended) return
@@ -147,6 +149,22 @@ export class Line<Head> {
       if (this.#ended) return
     }
     this.#owner.schedule()
+  }
+
+  /** Why nothing may be sent any more without a new line. */
+  expired(): PlcError | undefined {
+    if (this.#transport?.kind !== 'datagram' || this.inFlight > 0) return undefined
+    return this.#opening.expired(this.#options.clock.now(), this.peer)
+  }
+
+  /** What the PLC refuses has been corrected. */
+  correct(): void {
+    this.#opening.correct()
+  }
+
+  /** Whether another attempt would end for the same reason. */
+  isFinal(reason: PlcError): boolean {
+    return this.#opening.isFinal(reason)
   }
 
   nextTimeout(): number | undefined {
@@ -189,7 +207,7 @@ export class Line<Head> {
       if (event.kind === 'drop' || event.kind === 'renew') continue
       // An answer that arrived just before is one all the same.
       if (event.kind !== 'done' || event.outcome.kind !== 'disconnected') this.#take(event)
-      else if (event.job !== this.#probe) handBack(event.job, event.outcome.sent)
+      else if (!this.#opening.owns(event.job)) handBack(event.job, event.outcome.sent)
     }
   }
 
@@ -240,7 +258,7 @@ export class Line<Head> {
 
   #answered(job: Call<Head>, frame: ResponseFrame<Head>, sentAt: number | undefined): void {
     const { counters } = this.#owner
-    const isProbe = job === this.#probe
+    const isProbe = this.#opening.owns(job)
     this.#silent = 0
     const error = job.answer(frame)
     if (!isProbe) {
@@ -252,17 +270,16 @@ export class Line<Head> {
       counters.add('protocolErrors')
       this.#lost(error)
     } else if (this.#ended) return
-    else if (isProbe) this.#verified()
-    else this.#owner.proved()
-  }
-
-  #verified(): void {
-    this.#probe = undefined
-    this.#owner.verified()
+    else if (isProbe) this.#goOn(error)
+    else {
+      const locked = this.#opening.lockedBy(error, this.peer)
+      if (locked === undefined) this.#owner.proved()
+      else this.#lost(locked)
+    }
   }
 
   #timedOut(job: Call<Head>, sent: boolean): void {
-    const isProbe = job === this.#probe
+    const isProbe = this.#opening.owns(job)
     if (sent && !job.exchange.answered) {
       takeAsDone(job)
       // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.

@@ -7,12 +7,13 @@ import { commands } from '../melsec/commands/commands'
 import { frame3e, type Head3e } from '../melsec/frame-3e'
 import type { Profile } from '../melsec/profile'
 import { type ClientProtocol, type ExchangeOptions, MelsecProtocol } from '../melsec/protocol'
+import { isPasswordRefusal, isPortLocked } from '../melsec/remote-password'
 import { protocolOver1e } from '../melsec/slmp-over-1e'
 import { tcpTransport } from '../transport/tcp'
 import type { OpenTransport } from '../transport/transport'
 import { udpTransport } from '../transport/udp'
-import type { PlcValue, ValueOf } from '../value/value'
 import { type CallOptions, optionProblem } from './call'
+import type { ClientEvents, ItemValue, ReadPlan, ReadValue, WriteEntry, WritePlan } from './client-types'
 import { Connection, type ConnectionState } from './connection'
 import { type Control, controlOf, type Identity, identify, type Send, selfTest } from './control'
 import { Deadline } from './deadline'
@@ -26,7 +27,6 @@ import {
   type Item,
   type ItemExplanation,
   type ParsedItem,
-  type PlanDescription,
   parseItem,
   planRead,
   planWrite,
@@ -35,61 +35,23 @@ import {
   type WriteOptions,
   type WriteResult,
 } from './plan'
+import { RemotePassword } from './remote-password'
 import type { Statistics } from './statistics'
-import { type TraceEntry, Tracer } from './trace'
+import { Tracer } from './trace'
 import { refuseAmbiguousXy } from './xy-notation'
 
-/** A value read from an item without, or with, a count or range. */
-export type ReadValue = PlcValue | PlcValue[]
+export type {
+  ClientEvents,
+  ItemValue,
+  ReadPlan,
+  ReadValue,
+  UnsolicitedFrame,
+  WriteEntry,
+  WritePlan,
+} from './client-types'
 
-/** The type of an item's value as far as its text says it: `D100:REAL` number, `D100:REAL[4]` number[]. */
-export type ItemValue<I> = I extends `${string}:${infer T}[${string}]`
-  ? ValueOf<T>[]
-  : I extends `${string}..${string}`
-    ? PlcValue[]
-    : I extends `${string}:${infer T}`
-      ? ValueOf<T>
-      : ReadValue
-
-/** What a client tells those who listen. */
-export interface ClientEvents {
-  /** The state of the connection changed. */
-  readonly state: ConnectionState
-  /** A frame was sent or received. Costs time only while somebody listens. */
-  readonly trace: TraceEntry
-  /** A frame that the PLC sent unasked. */
-  readonly unsolicited: UnsolicitedFrame
-}
-
-/** A frame that arrived in the form of a request. */
-export interface UnsolicitedFrame {
-  readonly route: Head3e['route']
-  /** Command, subcommand and data, in the data code of the connection. */
-  readonly body: Buffer
-}
-
-/** One value to write. */
-export interface WriteEntry {
-  readonly item: Item
-  readonly value: ReadValue
-}
-
-/** A prepared read: run it again and again; nothing is parsed or encoded anew. */
-export interface ReadPlan {
-  /** Reads all items once. Each has its own result; it rejects only for a bug. */
-  run(options?: CallOptions): Promise<ReadResult[]>
-  /** Requests, points, bytes and notes, for people. */
-  describe(): PlanDescription
-  toString(): string
-}
-
-/** A prepared write. */
-export interface WritePlan {
-  /** Writes all entries once, in their order. Needs `allowWrites`. */
-  run(options?: CallOptions): Promise<WriteResult[]>
-  describe(): PlanDescription
-  toString(): string
-}
+/** ms that closing may wait for the PLC to lock itself: over TCP the end of the connection locks it, too. */
+const LOCK_TIME = 500
 
 const EVENTS = { state: true, trace: true, unsolicited: true } as const satisfies Record<keyof ClientEvents, true>
 
@@ -116,13 +78,19 @@ export class MelsecClient {
   /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
   #monitored = false
   readonly #send: Send
+  readonly #password: RemotePassword
+  /** As given, without the password. */
+  readonly options: Omit<MelsecClientOptions, 'password'>
   /** Remote RUN, STOP, PAUSE, latch clear and reset. Needs `allowControl`. */
   readonly control: Control
 
-  constructor(readonly options: MelsecClientOptions) {
-    const settings = settle(options)
+  constructor(given: MelsecClientOptions) {
+    const settings = settle(given)
+    const { password, ...options } = given
+    this.options = options
     this.#settings = settings
     this.#protocol = protocolOf(settings, options)
+    this.#password = new RemotePassword(this.#protocol, password)
     this.#tracer = new Tracer({
       ...settings,
       asciiXy: options.asciiXy,
@@ -138,6 +106,7 @@ export class MelsecClient {
       queueLimit: settings.queueLimit,
       connectTimeout: settings.connectTimeout,
       timeout: settings.timeout,
+      unlocking: { exchange: () => this.#password.unlock(), isFinal: isPasswordRefusal, isLocked: isPortLocked },
       probe: () => this.#probe(),
       explainSilence: (silence) =>
         explainSilence(
@@ -195,7 +164,18 @@ export class MelsecClient {
 
   /** Ends the connection and every call under way. The client cannot be used again. */
   async close(): Promise<void> {
-    this.#connection.close()
+    const lock = this.#password.lock()
+    if (lock === undefined) this.#connection.close()
+    else await this.#connection.finish(lock, LOCK_TIME)
+  }
+
+  /**
+   * Another remote password, from the next connection on. After a refusal this is what makes the client try again.
+   * `undefined`: the PLC has none. @throws RequestError BAD_OPTION
+   */
+  setPassword(password: string | undefined): void {
+    this.#password.set(password)
+    this.#connection.retry()
   }
 
   /**

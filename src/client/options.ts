@@ -58,6 +58,11 @@ export interface MelsecClientOptions {
   readonly allowWrites?: boolean
   /** Remote control commands are refused unless this is true. */
   readonly allowControl?: boolean
+  /**
+   * Remote password of the PLC (Q and L 4, iQ-R and iQ-F 6 to 32 characters): unlocks it on every connection, locks it at
+   * `close()`. It is never shown. A wrong one is sent once; see `setPassword()`.
+   */
+  readonly password?: string
   /** Words that may be read in vain to merge near items into one request; 64. */
   readonly gap?: number
   /** Default word order, byte order and text encoding of items. */
@@ -125,6 +130,7 @@ const NAMES = {
   queueLimit: true,
   allowWrites: true,
   allowControl: true,
+  password: true,
   gap: true,
   format: true,
   reconnect: true,
@@ -157,6 +163,7 @@ export function settle(options: MelsecClientOptions): Settings {
   const frame = frameOf(profile, options.frame)
   if (options.openTransport === undefined) checkPeer(options)
   checkFormat(options.format ?? {})
+  checkPasswordPort(options, transport, frame)
   return {
     transport,
     profile,
@@ -215,6 +222,20 @@ function checkPeer({ host, port }: MelsecClientOptions): void {
     throw new RequestError('BAD_OPTION', 'host is missing: give the address of the PLC, e.g. 192.168.3.39.', 'host')
   }
   whole('port', port, 1, 65_535)
+}
+
+/** A PLC unlocks one peer, and over UDP with 3E the local port would change with every request. */
+function checkPasswordPort(
+  { password, localPort, openTransport }: MelsecClientOptions,
+  transport: TransportName,
+  frame: FrameName,
+): void {
+  if (password === undefined || transport === 'tcp' || frame === '4E') return
+  if (localPort !== undefined || openTransport !== undefined) return
+  const message =
+    'A remote password over UDP needs localPort with the 3E frame: the PLC unlocks one peer, and without it every request ' +
+    'leaves from another port. Set it as in the open settings of the PLC, or use TCP or the 4E frame.'
+  throw new RequestError('BAD_OPTION', message, 'localPort')
 }
 
 function frameOf(profile: Profile, frame: FrameName | undefined): FrameName {

@@ -57,6 +57,11 @@ export class Supervisor {
     return this.#name === 'idle' || (this.#name === 'connecting' && this.#attempt <= 1)
   }
 
+  /** Waiting for a correction by the user: there is no next attempt before `retry()`. */
+  get givenUp(): boolean {
+    return this.#name === 'waiting' && this.#nextAttempt === undefined
+  }
+
   /** Somebody needs the connection. @returns whether the shell must open a transport now. */
   want(): boolean {
     if (this.#name !== 'idle') return false
@@ -86,7 +91,15 @@ export class Supervisor {
     this.#useful = true
   }
 
-  /** The attempt failed, or the connection is gone or was dropped. */
+  /** What made further attempts pointless has been corrected. @returns whether the shell must open a transport now. */
+  retry(): boolean {
+    if (!this.givenUp) return false
+    this.#attempt = 0
+    this.#connect()
+    return true
+  }
+
+  /** The attempt failed, or the connection is gone or was dropped. `pauseAtLeast` may be Infinity: until `retry()`. */
   lost(error: PlcError, now: number, pauseAtLeast = 0): void {
     if (this.#name === 'closed') return
     const shortLived = this.#name === 'connected' && now - this.#connectedAt < STABLE
@@ -96,7 +109,8 @@ export class Supervisor {
     this.#name = 'waiting'
     this.#error = error
     const failures = shortLived ? Math.max(1, this.#attempt) : this.#attempt
-    this.#nextAttempt = now + Math.max(pauseAtLeast, this.#pause(failures))
+    const next = now + Math.max(pauseAtLeast, this.#pause(failures))
+    this.#nextAttempt = next === Number.POSITIVE_INFINITY ? undefined : next
   }
 
   close(): void {

@@ -70,8 +70,10 @@ export class Tracer {
   /** `undefined` for 1E, which is told apart by its requests. */
   readonly #framing: Framing<Head3e> | undefined
   readonly #commands: Readonly<Record<string, Command>>
-  /** Whether any command has a secret: without one no frame is searched for it. */
-  readonly #secrets: boolean
+  /** Codes of commands with a secret: other frames are not searched for it. */
+  readonly #secretCodes: ReadonlySet<number>
+  /** Whether an answer could hold one. */
+  readonly #secretAnswers: boolean
   /** Frames of requests by serial number, or under 0 the last one. */
   readonly #requests = new Map<number, Buffer>()
   #registration: Buffer | undefined
@@ -81,9 +83,11 @@ export class Tracer {
     this.#options = options
     this.#framing = options.frame === '1E' ? undefined : frame3e(options.frame, options.code)
     this.#commands = options.commands ?? commands
-    this.#secrets = Object.values(this.#commands).some(
+    const secret = Object.values(this.#commands).filter(
       ({ request, response }) => hasSecret(request) || hasSecret(response),
     )
+    this.#secretCodes = new Set(secret.map(({ code }) => code))
+    this.#secretAnswers = secret.some(({ response }) => Object.keys(response).length > 0)
   }
 
   /** The connection is gone: the rest of a frame does not come any more. */
@@ -96,7 +100,8 @@ export class Tracer {
   entry({ time, direction, bytes }: TracedFrame): TraceEntry {
     const pieces = direction === 'sent' ? this.#sent(bytes) : this.#receivedPieces(bytes)
     const explain = () => pieces.map((piece) => this.#explain(piece))
-    return new Entry(time, direction, this.#secrets ? masked(bytes, pieces, explain()) : bytes, explain)
+    const secret = direction === 'sent' ? this.#isSecret(bytes) : this.#secretAnswers
+    return new Entry(time, direction, secret ? masked(bytes, pieces, explain()) : bytes, explain)
   }
 
   #sent(bytes: Buffer): readonly Piece[] {
@@ -128,6 +133,14 @@ export class Tracer {
     const isWhole = this.#explain(piece).fault === undefined
     this.#received = isWhole || this.#options.kind === 'datagram' || bytes.length > LONGEST_FRAME ? EMPTY : bytes
     return [this.#received === EMPTY ? piece : { ...piece, unfinished: true }]
+  }
+
+  #isSecret(frame: Buffer): boolean {
+    const framing = this.#framing
+    if (framing === undefined || this.#secretCodes.size === 0) return false
+    const body = attempt(() => framing.request.scan(frame, () => undefined))?.frame.body
+    const code = body && attempt(() => readerOf(this.#options.code, body).uint(2))
+    return code === undefined || this.#secretCodes.has(code)
   }
 
   /** Whether the body is the request of a command that answers of another one refer to. */

@@ -242,6 +242,18 @@ export function hasSecret(shape: Shape): boolean {
   )
 }
 
+/** The message with asterisks in place of its secrets, for logs and events. */
+export function withoutSecrets(shape: Shape, message: Readonly<Record<string, unknown>>): Record<string, unknown> {
+  const entries = Object.entries(message).map(([name, value]): [string, unknown] => {
+    const field = shape[name]
+    if (field?.kind === 'list' && Array.isArray(value)) {
+      return [name, value.map((item: Readonly<Record<string, unknown>>) => withoutSecrets(field.item, item))]
+    }
+    return [name, field !== undefined && isSecret(field, undefined) ? MASK : value]
+  })
+  return Object.fromEntries(entries)
+}
+
 /** The bytes of a row as people read them; a secret leaves one pair or character of asterisks per byte. */
 export function showBytes(bytes: Buffer, code: DataCode, secret = false): string {
   if (code === 'ascii')

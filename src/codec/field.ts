@@ -4,8 +4,8 @@ import type { ValueCodec, Width } from './cursor'
 /** How many elements: a fixed number, or the name of a number, count, list or bulk field of this message or the request. */
 export type Count = number | string
 
-/** Characters a text field may hold. `hexDigits`: 0-9 and A-F (Self Test). */
-export type Charset = 'any' | 'hexDigits'
+/** Characters a text field may hold. `hexDigits`: 0-9 and A-F (Self Test). `printable`: 20H to 7EH (passwords). */
+export type Charset = 'any' | 'hexDigits' | 'printable'
 
 interface Documented {
   readonly doc?: string

@@ -200,7 +200,10 @@ function putText(field: Extract<Field, { kind: 'text' }>, text: string, writer: 
   else writer.text(text)
 }
 
-const CHARSETS: Readonly<Record<Exclude<Charset, 'any'>, RegExp>> = { hexDigits: /^[0-9A-F]*$/ }
+const CHARSETS: Readonly<Record<Exclude<Charset, 'any'>, { readonly has: RegExp; readonly text: string }>> = {
+  hexDigits: { has: /^[0-9A-F]*$/, text: '0-9 and A-F' },
+  printable: { has: /^[\x20-\x7e]*$/, text: '20H to 7EH (ASCII)' },
+}
 
 function textToWrite(
   field: Extract<Field, { kind: 'text' }>,
@@ -209,16 +212,19 @@ function textToWrite(
   message: Bag,
   context: Context | undefined,
 ): string {
-  if (typeof given !== 'string') bad(`must be a text, is ${show(given)}`)
+  if (typeof given !== 'string') bad(field.secret === true ? 'must be a text' : `must be a text, is ${show(given)}`)
   const expected = countIn(field.count, name, message, context)
   if (expected !== undefined && given.length !== expected)
     bad(`has ${given.length} character(s), must have ${expected}`)
-  if (!inCharset(field.charset, given)) bad('may hold only the characters 0-9 and A-F')
+  const missing = notInCharset(field.charset, given)
+  if (missing !== undefined) bad(`may hold only the characters ${missing}`)
   return given
 }
 
-function inCharset(charset: Charset | undefined, given: string): boolean {
-  return charset === undefined || charset === 'any' || CHARSETS[charset].test(given)
+/** The characters that may be there, when there are others. */
+function notInCharset(charset: Charset | undefined, given: string): string | undefined {
+  if (charset === undefined || charset === 'any') return undefined
+  return CHARSETS[charset].has.test(given) ? undefined : CHARSETS[charset].text
 }
 
 function listToWrite(
@@ -353,7 +359,8 @@ function same(a: unknown, b: unknown): boolean {
 
 function readText(field: Extract<Field, { kind: 'text' }>, count: number, reader: Reader): string {
   const read = field.digits === true ? reader.bytes(count).toString('latin1') : reader.text(count)
-  if (!inCharset(field.charset, read)) reader.fail('BAD_FIELD', 'a character other than 0-9 and A-F')
+  const allowed = notInCharset(field.charset, read)
+  if (allowed !== undefined) reader.fail('BAD_FIELD', `a character other than ${allowed}`)
   return read
 }
 

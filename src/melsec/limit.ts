@@ -9,13 +9,13 @@ import type { DeviceForm, Profile } from './profile'
  * What a limit counts. `weightedPoints`: points and blocks with weights, as the manuals give them. `bytes`: the request
  * data as sent, from the command on; it has no sum.
  */
-export type LimitUnit = 'points' | 'blocks' | 'weightedPoints' | 'bytes'
+export type LimitUnit = 'points' | 'blocks' | 'weightedPoints' | 'bytes' | 'characters'
 
 /** 1E: a request carries fewer words of bit devices than of the others. */
 export type LimitedUnit = 'bit' | 'word'
 
 /**
- * Weight of each request field. A number field counts its value, a list or bulk field its length;
+ * Weight of each request field. A number field counts its value, a list, bulk or text field its length;
  * `wordBlocks.points` is the sum over the list (value of a number, length of a bulk field).
  */
 export type Weights = Readonly<Record<string, number>>
@@ -47,6 +47,8 @@ export interface LimitRule {
   readonly sum?: Weights
   /** In binary code and for a device specification that is not extended. */
   readonly max: number
+  /** Default 1. */
+  readonly min?: number
   readonly unit: LimitUnit
   /** Everything counts so many times in ASCII code (FX5: 2). */
   readonly asciiFactor?: number
@@ -80,8 +82,8 @@ function limitOf(rule: LimitRule, command: CommandName, form: DeviceForm, code: 
   if (sum === undefined) throw new Error(`limit rule for ${command} without a sum`)
   // "Counts n times, at most max" is the same as "at most max / n", and the figure a user can check against.
   const max = Math.floor(rule.max / factorOf(rule, form, code))
-  const { unit, endCode, source, of } = rule
-  return { command, form, code, ...(of === undefined ? {} : { of }), sum, max, min: 1, unit, endCode, source }
+  const { min = 1, unit, endCode, source, of } = rule
+  return { command, form, code, ...(of === undefined ? {} : { of }), sum, max, min, unit, endCode, source }
 }
 
 function sameSum(a: Limit, b: Limit): boolean {
@@ -135,6 +137,7 @@ export type Measurable = Readonly<Record<string, unknown>>
 
 function sizeOf(value: unknown): number | undefined {
   if (typeof value === 'number') return value
+  if (typeof value === 'string') return value.length
   return isArrayLike(value) ? value.length : undefined
 }
 
@@ -171,7 +174,7 @@ export function measureLimit(limit: Limit, message: Measurable): number {
   for (const [path, weight] of Object.entries(limit.sum)) {
     const size = sizeAt(message, path)
     if (size === undefined || !Number.isFinite(size)) {
-      throw new RequestError('BAD_MESSAGE', `${limit.command}: "${path}" must be a number or a list.`, path)
+      throw new RequestError('BAD_MESSAGE', `${limit.command}: "${path}" must be a number, a text or a list.`, path)
     }
     sum += weight * size
   }
@@ -217,6 +220,7 @@ const unitText: Readonly<Record<LimitUnit, string>> = {
   blocks: 'blocks',
   weightedPoints: 'weighted points',
   bytes: 'bytes',
+  characters: 'characters',
 }
 
 /**
@@ -235,6 +239,14 @@ export function checkLimits(
   if (broken === undefined) return
   const { limit, measured } = broken
   const unit = unitText[limit.unit]
+  if (limit.unit === 'characters') {
+    const range = limit.min === limit.max ? `exactly ${limit.min}` : `${limit.min} to ${limit.max}`
+    throw new RequestError(
+      measured < limit.min ? 'OUT_OF_RANGE' : 'LIMIT_EXCEEDED',
+      `${command}: ${formula(limit)} has ${measured} characters; ${profile.title} takes ${range} (${limit.source}).`,
+      formula(limit),
+    )
+  }
   if (measured < limit.min) {
     throw new RequestError(
       'OUT_OF_RANGE',

@@ -1,4 +1,6 @@
 // One client of the simulated PLC: its requests in order, and its answers through the fault switches onto the wire.
+
+import { withoutSecrets } from '../codec/annotate'
 import type { Effect } from '../codec/codec'
 import { Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
@@ -11,6 +13,7 @@ import { routeRefusal } from './check'
 import type { FaultSubject, Faults } from './faults'
 import type { Call } from './handlers'
 import type { Answer, Plc } from './plc'
+import type { RemotePassword } from './port-lock'
 import { Refusal, requestErrors } from './refusal'
 import { type Ports, type Received, receive } from './request'
 import { Sequence, type Step } from './sequence'
@@ -25,7 +28,7 @@ export interface RequestEvent {
   /** Name of the command; undefined when it is none that is declared, or its data are wrong. */
   readonly command: CommandName | undefined
   readonly effect: Effect | undefined
-  /** The request as decoded. */
+  /** The request as decoded; passwords are asterisks. */
   readonly message: Readonly<Record<string, unknown>> | undefined
   /** 0 success; undefined when there is no answer. */
   readonly endCode: number | undefined
@@ -48,6 +51,7 @@ export interface Shared {
   /** Receive buffer of the UDP port: requests it holds, the one that is being answered among them. */
   readonly datagramBuffer: { readonly size: number; used: number }
   readonly observe: (event: RequestEvent) => void
+  readonly password: RemotePassword
 }
 
 interface Work extends FaultSubject {
@@ -82,7 +86,7 @@ export class Connection {
   ) {
     this.#shared = shared
     this.#peer = peer
-    this.#call = shared.plc.callOf({ owner, monitored: undefined })
+    this.#call = shared.plc.callOf({ owner, monitored: undefined, lock: shared.password.lockOf(kind) })
     this.since = shared.clock.time()
     const { slmp, aCompatible } = shared.ports
     const framing = anyFrame(shared.frames, slmp.code, (bytes) => this.#unreadable(bytes), aCompatible.lengthOf)
@@ -180,7 +184,7 @@ export class Connection {
       frame: frame.head.frame,
       command: read?.name,
       effect: read?.command.effect,
-      message: read?.message,
+      message: read === undefined ? undefined : withoutSecrets(read.command.request, read.message),
       endCode: answer.kind === 'none' ? undefined : answer.kind === 'data' ? 0 : answer.endCode,
     })
   }

@@ -8,6 +8,7 @@ import type { Cpu } from './cpu'
 import type { ErrorLog } from './error-log'
 import type { LabelTable } from './labels'
 import type { AccessUnit, DeviceMemory } from './memory'
+import type { PortLock } from './port-lock'
 import { Refusal } from './refusal'
 
 type RandomDevices = MessageOf<Commands['entryMonitorDevice']['request']>
@@ -18,6 +19,8 @@ export interface Caller {
   readonly owner: string
   /** Entry Monitor Device of this connection. */
   monitored: RandomDevices | undefined
+  /** Remote password of this connection. */
+  readonly lock: PortLock
 }
 
 /** What a handler works on. */
@@ -129,6 +132,15 @@ export const handlers: { readonly [N in CommandName]: Handler<N> } = {
   writeRandomLabels(request, { labels }) {
     const writes = request.labels.map(({ name, data }) => labels.writer(name, request.abbreviations, data))
     for (const write of writes) write()
+    return {}
+  },
+  unlock({ password }, { caller }) {
+    caller.lock.unlock(password)
+    return {}
+  },
+  lock({ password }, { caller, profile }) {
+    // FX5 communication manual 38.6: length and password are not used by Lock.
+    caller.lock.lock(profile.id === 'iq-f' ? undefined : password)
     return {}
   },
 }

@@ -5,6 +5,7 @@ import type { OddBits } from '../melsec/a-compatible-rules'
 import { type DeviceName, findDevice } from '../melsec/device'
 import { modelOf } from '../melsec/model-code'
 import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
+import { passwordProblem } from '../melsec/remote-password'
 import { type Clock, realClock } from '../transport/clock'
 import type { Call } from './handlers'
 import { LabelTable, type SimulatedLabels } from './labels'
@@ -61,6 +62,15 @@ export interface PlcSimulatorOptions {
   readonly extensions?: ExtensionMemory
   /** Global labels that are open to external devices. Default: none. */
   readonly labels?: SimulatedLabels
+  /**
+   * Remote password: every connection is locked until it is unlocked, after its end, and over UDP after 10 minutes
+   * without traffic. Default: none.
+   */
+  readonly password?: string
+  /** Wrong passwords in a row after which the port locks out. Default 10. */
+  readonly passwordAttempts?: number
+  /** ms for which the port takes no password then. Default 60000. */
+  readonly lockOutTime?: number
   readonly clock?: Clock
 }
 
@@ -86,6 +96,9 @@ export interface Settings {
   readonly latch: readonly DeviceName[]
   readonly extensions: ExtensionMemory
   readonly labels: LabelTable
+  readonly password: string | undefined
+  readonly passwordAttempts: number
+  readonly lockOutTime: number
   readonly clock: Clock
 }
 
@@ -134,6 +147,9 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     latch: latchOf(options.latch ?? ['L', 'R', 'ZR']),
     extensions: options.extensions ?? {},
     labels: new LabelTable(options.labels ?? {}),
+    password: passwordOf(profile, options.password),
+    passwordAttempts: whole('passwordAttempts', options.passwordAttempts ?? 10, 1),
+    lockOutTime: milliseconds('lockOutTime', options.lockOutTime ?? 60_000),
     clock: options.clock ?? realClock,
   }
   for (const name of Object.keys(options)) {
@@ -160,6 +176,11 @@ function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['mod
 function latchOf(names: readonly DeviceName[]): readonly DeviceName[] {
   for (const name of names) if (findDevice(name) === undefined) bad('latch', `There is no device ${String(name)}.`)
   return names
+}
+
+function passwordOf(profile: Profile, password: string | undefined): string | undefined {
+  const problem = password === undefined ? undefined : passwordProblem(profile, password)
+  return problem === undefined ? password : bad('password', `password: ${problem}.`)
 }
 
 function oneOf<T extends string>(field: string, value: T, allowed: readonly T[]): T {

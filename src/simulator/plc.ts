@@ -21,6 +21,9 @@ export type Answer =
   | { readonly kind: 'refused'; readonly endCode: number; readonly message: string; readonly abnormal?: number }
   | { readonly kind: 'none' }
 
+/** Commands that a port takes while the remote password locks it. */
+const FREE: readonly CommandName[] = ['unlock', 'lock']
+
 export interface PlcParts {
   readonly profile: Profile
   readonly model: Call['model']
@@ -90,6 +93,7 @@ export class Plc {
       if (this.#otherStations === 'silence') return { kind: 'none' }
       throw wrongRoute
     }
+    call.caller.lock.enter(!(request instanceof Refusal) && FREE.includes(request.name))
     if (request instanceof Refusal) throw request
     checkRequest(this.profile, protocol.code, request)
     // What clients write to the system's devices does not stay there.
@@ -99,6 +103,8 @@ export class Plc {
 
   /** Limits and devices were checked where the request was read: 1E has its own. */
   #answer1e({ request, respond }: Received, call: Call): Answer {
+    // 1E cannot unlock: it works where another frame has unlocked the connection.
+    call.caller.lock.enter(false)
     if (request instanceof Refusal) throw request
     if (respond === undefined) throw new TypeError('a 1E request without a way to answer')
     this.#refreshSystemDevices()

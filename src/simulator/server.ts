@@ -20,6 +20,7 @@ import { type FaultSubject, Faults } from './faults'
 import type { ProgramLabels } from './labels'
 import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
 import { Plc } from './plc'
+import { RemotePassword } from './port-lock'
 import type { ProgramMemory } from './program-memory'
 import { newCounters, type SimulatorStatistics } from './statistics'
 
@@ -254,6 +255,7 @@ class Simulator implements PlcSimulator {
       heldDatagrams: [],
       datagramBuffer: { size: 1 + profile.inFlight.udpBuffer, used: 0 },
       observe: (event) => this.#observe(event),
+      password: new RemotePassword(profile.id, this.#settings),
     }
   }
 

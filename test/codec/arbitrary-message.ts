@@ -47,6 +47,7 @@ const ELEMENT = {
   bits: fc.boolean(),
   bytes: fc.integer({ min: 0, max: 0xff }),
 } satisfies Record<string, fc.Arbitrary<unknown>>
+const CHARACTERS = { any: 'Az09 -é', printable: 'Az09 -~', hexDigits: '0123456789ABCDEF' }
 const MOST = 20
 
 /** A message of `shape`; a response's with the request it answers. */
@@ -91,7 +92,7 @@ function valueFor(
     case 'bits':
       return array<unknown>(ELEMENT[field.kind], size(), generate)
     case 'text': {
-      const characters = field.charset === 'hexDigits' ? '0123456789ABCDEF' : 'Az09 -é'
+      const characters = CHARACTERS[field.charset ?? 'any']
       return array(fc.constantFrom(...characters), size(), generate).join('')
     }
     case 'list':

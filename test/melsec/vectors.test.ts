@@ -105,8 +105,8 @@ describe.each(FAMILIES)('response data of %s', (family) => {
   })
 })
 
-describe('beginnings of request data', () => {
-  test.each(vectorsOfKind('mc-serial', 'prefix'))('$id is what the request begins with', (vector) => {
+describe.each(FAMILIES)('beginnings of request data of %s', (family) => {
+  test.each(vectorsOfKind(family, 'prefix'))('$id is what the request begins with', (vector) => {
     expect(requestData(vector).toString('hex').slice(0, vector.hex.length)).toBe(vector.hex)
   })
 })
@@ -225,6 +225,11 @@ describe('fields of commands', () => {
     expect(bytes.toString('hex').startsWith(vector.hex)).toBe(true)
   })
 
+  test.each(of('passwordLength'))('$id: length of the remote password', (vector) => {
+    const bytes = data(commands.unlock.request, { password: 'p'.repeat(value(vector)) }, vector)
+    expect(bytes.toString('hex').startsWith(vector.hex)).toBe(true)
+  })
+
   test.each(of('clearMode'))('$id: clear mode', (vector) => {
     const bytes = data(commands.remoteRun.request, { mode: 1, clearMode: value(vector) }, vector)
     const at = vector.code === 'ascii' ? 4 : 2
@@ -247,9 +252,10 @@ describe('fields of commands', () => {
 
   test('every field is tested here or as a part of a frame', () => {
     const here = ['subcommand', 'points', 'bitAccessPoints', 'accessPoints', 'blocks', 'setReset', 'mode', 'clearMode']
+    const texts = ['passwordLength']
     const frame = ['network', 'station', 'moduleIo', 'multidrop', 'requestDataLength', 'responseDataLength', 'timer']
     const serial = ['endCode', 'dataBytes', 'frameId', 'pc', 'selfStation', 'directMemory']
-    for (const { fields: parts } of fields) expect([...here, ...frame, ...serial]).toContain(parts[0]?.name)
+    for (const { fields: parts } of fields) expect([...here, ...texts, ...frame, ...serial]).toContain(parts[0]?.name)
   })
 })
 

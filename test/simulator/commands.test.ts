@@ -9,6 +9,8 @@ const M100 = { device: 'M', number: 100 } as const
 const D10 = { device: 'D', number: 10 } as const
 const D20 = { device: 'D', number: 20 } as const
 
+const anyPassword = ({ id }: Profile) => (id === 'q' || id === 'l' ? 'what' : 'whatever')
+
 /** What each command must do, seen from the wire and from the program. */
 const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
   readBits({ plc, asker }) {
@@ -165,6 +167,14 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     ]
     expect(asker.ask(commands.writeRandomLabels, { abbreviations: [], labels })).toEqual({})
     expect([plc.labels.get('Line.Speed'), plc.labels.get('Start.S')]).toEqual([2, true])
+  },
+  unlock({ plc, asker }) {
+    // A port without a password is never locked, and nobody looks at the one that is sent.
+    expect(asker.ask(commands.unlock, { password: anyPassword(plc.profile) })).toEqual({})
+  },
+  lock({ plc, asker }) {
+    expect(asker.ask(commands.lock, { password: anyPassword(plc.profile) })).toEqual({})
+    expect(asker.endCode(commands.readTypeName, {})).toBe(0)
   },
 }
 

@@ -72,6 +72,8 @@ const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
   ],
 ])
 
+const CHARACTERS = { any: 'Az09 -\u00e9\u00ff\u0000', printable: 'Az09 -~', hexDigits: '0123456789ABCDEF' }
+
 const ELEMENTS = {
   words: fc.nat(0xffff),
   doubleWords: fc.nat(0xffffffff),
@@ -142,7 +144,7 @@ class Maker {
       case 'bytes':
         return Buffer.from(this.elements(ELEMENTS.bytes, this.size(name, field.count, shape, message)))
       case 'text': {
-        const characters = field.charset === 'hexDigits' ? '0123456789ABCDEF' : 'Az09 -\u00e9\u00ff\u0000'
+        const characters = CHARACTERS[field.charset ?? 'any']
         return this.elements(fc.constantFrom(...characters), this.size(name, field.count, shape, message)).join('')
       }
       case 'list':

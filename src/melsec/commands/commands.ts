@@ -1,9 +1,10 @@
 import { controlCommands } from './control'
 import { deviceCommands } from './device'
 import { labelCommands } from './label'
+import { passwordCommands } from './password'
 
 /** Every declared command of the SLMP set, by name: documentation, palette options and the simulator read this list. */
-export const commands = { ...deviceCommands, ...controlCommands, ...labelCommands } as const
+export const commands = { ...deviceCommands, ...controlCommands, ...labelCommands, ...passwordCommands } as const
 
 export type Commands = typeof commands
 export type CommandName = keyof Commands

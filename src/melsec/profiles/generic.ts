@@ -1,6 +1,7 @@
 import type { Profile } from '../profile'
 import { iqF } from './iq-f'
 import { iqR } from './iq-r'
+import { passwordLimit } from './limits'
 
 /** For a PLC nobody knows: every form and command, and of all limits the lower ones. */
 export const generic: Profile = {
@@ -15,7 +16,10 @@ export const generic: Profile = {
   exclusions: [],
   // Both tables at once: all limits of a command hold together, so the lower figure wins (limitsOf). Those of Q and L
   // are never below iQ-R's.
-  limits: [...iqR.limits, ...iqF.limits],
+  limits: [
+    ...[...iqR.limits, ...iqF.limits].filter(({ unit }) => unit !== 'characters'),
+    passwordLimit(4, 32, 'Q and L 4, iQ-R and iQ-F 6 to 32'),
+  ],
   ranges: { points: {}, source: 'unknown: no device number is checked' },
   inFlight: { tcp: 1, udpBuffer: 0, source: 'the lowest of all profiles' },
   monitoringTimer: {

@@ -1,6 +1,6 @@
 import type { LimitRule } from '../limit'
 import type { DeviceForm, Profile } from '../profile'
-import { blockCounts, randomWriteWeights, writtenBlockWeights } from './limits'
+import { blockCounts, passwordLimit, randomWriteWeights, writtenBlockWeights } from './limits'
 import { noLabels } from './no-labels'
 import { pointsOf } from './ranges'
 
@@ -10,6 +10,7 @@ const twice = { asciiFactor: 2, extendedFactor: 2 } as const
 
 // C051 and C052 the other way round than on iQ-R, Q and L: the manual's end codes (47.4), and measured by others.
 const limits: readonly LimitRule[] = [
+  passwordLimit(6, 32, 'FX5 communication manual 38.6'),
   {
     commands: ['readWords', 'writeWords'],
     forms,

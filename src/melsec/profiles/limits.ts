@@ -15,6 +15,21 @@ export function writtenBlockWeights(perBlock: number): Weights {
 
 const slmp = 'SLMP reference manual 5.2'
 
+/** Characters of the remote password. The commands take no device, so the limit holds in whatever form is the default. */
+export function passwordLimit(min: number, max: number, source: string): LimitRule {
+  return {
+    commands: ['unlock', 'lock'],
+    forms: ['short', 'long'],
+    sum: { password: 1 },
+    min,
+    max,
+    unit: 'characters',
+    endCode: 0xc200,
+    source,
+  }
+}
+const password = 'SLMP reference manual 5.7, remote password length'
+
 /** Read and Write, the same in every form. */
 export function batchLimits(forms: readonly DeviceForm[]): readonly LimitRule[] {
   return [
@@ -43,6 +58,7 @@ const short: readonly DeviceForm[] = ['short', 'extendedShort']
 
 /** Q and L: 000x and 008x. "Counted double with 008x" is for Read Random and Entry Monitor Device only. */
 export const qAndLLimits: readonly LimitRule[] = [
+  passwordLimit(4, 4, password),
   ...batchLimits(short),
   {
     commands: ['readRandom', 'entryMonitorDevice'],
@@ -94,6 +110,7 @@ const long: readonly DeviceForm[] = ['long', 'extendedLong']
 
 /** iQ-R: as Q/L in 000x, everything counted double with 0080; half of it in 0002 and 0082. */
 export const iqRLimits: readonly LimitRule[] = [
+  passwordLimit(6, 32, password),
   ...batchLimits([...short, ...long]),
   {
     commands: labelCommandNames,

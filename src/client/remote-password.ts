@@ -1,0 +1,44 @@
+// The remote password of a client: held here and nowhere else, so that nothing that is shown or logged can hold it.
+import { RequestError } from '../errors'
+import type { Exchange } from '../link/link'
+import { commands } from '../melsec/commands/commands'
+import type { Head3e } from '../melsec/frame-3e'
+import type { MelsecProtocol } from '../melsec/protocol'
+import { passwordProblem } from '../melsec/remote-password'
+import { ownStation } from '../melsec/route'
+
+type Protocol = Pick<MelsecProtocol<Head3e>, 'profile' | 'exchange'>
+
+export class RemotePassword {
+  readonly #protocol: Protocol
+  #password: string | undefined
+
+  /** @throws RequestError BAD_OPTION */
+  constructor(protocol: Protocol, password: string | undefined) {
+    this.#protocol = protocol
+    this.set(password)
+  }
+
+  /** `undefined`: the PLC has none. @throws RequestError BAD_OPTION; the one before stays then */
+  set(password: string | undefined): void {
+    const problem = password === undefined ? undefined : passwordProblem(this.#protocol.profile, password)
+    if (problem !== undefined) throw new RequestError('BAD_OPTION', `password: ${problem}.`, 'password')
+    this.#password = password
+  }
+
+  /** What opens a connection; undefined without a password. */
+  unlock(): Exchange<Head3e, unknown> | undefined {
+    const password = this.#password
+    return password === undefined ? undefined : toOwnStation(this.#protocol.exchange(commands.unlock, { password }))
+  }
+
+  lock(): Exchange<Head3e, unknown> | undefined {
+    const password = this.#password
+    return password === undefined ? undefined : toOwnStation(this.#protocol.exchange(commands.lock, { password }))
+  }
+}
+
+/** The password is that of the connected station, whichever station the client speaks to (SLMP manual 5.7). */
+function toOwnStation(exchange: Exchange<Head3e, unknown>): Exchange<Head3e, unknown> {
+  return { ...exchange, head: { ...exchange.head, route: ownStation } }
+}
