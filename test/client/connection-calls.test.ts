@@ -128,6 +128,19 @@ describe.each(everyLink)('$frame by $kind', (link) => {
       expect(bench.connection.statistics).toMatchObject({ protocolErrors: 0, answered: 1 })
     })
 
+    test('aborted while its answer is being taken: unknown, because it was sent', async () => {
+      const abort = new AbortController()
+      const bench = await Bench.connected({ ...link, onUnsolicited: () => abort.abort() })
+      bench.plc.script = (asked) => {
+        const news = bench.framing.request.write(asked.frame.head, 1, Buffer.from('news'))
+        if (link.kind === 'stream') asked.peer.send(Buffer.concat([news, asked.answer()]))
+        else asked.peer.send(news)
+      }
+      const write = bench.write(100, 9, { signal: abort.signal })
+      await bench.settle()
+      expect([write.told, write.settled]).toEqual(['ABORTED unknown', 1])
+    })
+
     test('aborted afterwards: nothing happens, and nothing is left on the signal', async () => {
       const bench = await Bench.connected(link)
       const abort = new AbortController()

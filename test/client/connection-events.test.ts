@@ -119,6 +119,23 @@ describe.each(everyLink)('listeners, $frame by $kind', (link) => {
 
 const ownHead = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
 
+test('a connection is lost once, however much is wrong on it', async () => {
+  const bench = await Bench.connected({ frame: '4E', inFlight: 2 })
+  const bad: Buffer[] = []
+  bench.plc.script = ({ frame, peer }) => {
+    bad.push(bench.framing.response.write(frame.head, frame.serial ?? 0, 0, Buffer.alloc(7)))
+    if (bad.length === 2) peer.send(Buffer.concat([...bad, Buffer.from('rubbish')]))
+  }
+  const reads = [bench.read(1), bench.read(2), bench.read(3)]
+  await bench.settle()
+  expect(reads.map(({ told }) => told)).toEqual(['TRAILING unknown', 'TRAILING unknown', 'pending'])
+  expect(bench.states.map(({ name }) => name)).toEqual(['waiting'])
+  expect(bench.connection.statistics).toMatchObject({ disconnects: 1, answered: 2, inFlight: 0, queued: 1 })
+  bench.plc.script = (asked) => asked.reply()
+  await bench.pass(50)
+  expect(reads[2]?.told).toEqual({ values: [3] })
+})
+
 describe('a transport that was given up', () => {
   /** A transport in the hands of the test. */
   function manual() {

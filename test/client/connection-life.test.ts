@@ -234,6 +234,17 @@ describe.each(frames)('a command that is not answered, %s', (frame) => {
   )
 })
 
+test.each(frames)('a reset that was not even sent is no success, %s', async (frame) => {
+  const bench = await Bench.connected({ frame })
+  bench.plc.script = ({ peer }) => peer.close()
+  const [read, reset] = [bench.read(1), bench.follow(bench.connection.request(bench.ask.reset()))]
+  await bench.settle()
+  expect([read.told, reset.told]).toEqual(['DISCONNECTED unknown', 'pending'])
+  bench.plc.script = (asked) => asked.reply()
+  await bench.pass(50)
+  expect([bench.plc.asked, reset.told]).toEqual([['readWords 1', 'remoteReset'], {}])
+})
+
 test('a reset by datagram to a port where nothing listens is no success', async () => {
   const bench = await Bench.connected({ kind: 'datagram' })
   bench.memory.refuse = true

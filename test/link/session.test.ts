@@ -173,6 +173,16 @@ describe('serial numbers', () => {
     second.receive(answer(framing, { serial: 6, body: Buffer.from('B') }), 2)
     expect(told(second)).toEqual(['stale 5', 'B answered B'])
   })
+
+  test.each(['disconnected', 'rubbish'])('what was in flight at the end (%s) rests, too', (end) => {
+    const serials = new SerialNumbers(5)
+    const session = sessionOf(framing, { serials, window: 2 })
+    ask(session, framing, 'A')
+    session.submit(job('unsent'), 0)
+    if (end === 'rubbish') session.receive(Buffer.from('rubbish'), 1)
+    session.disconnected()
+    expect(takeAround(serials, 4)).toBe(6)
+  })
 })
 
 describe.each(codes)('3E %s: without a serial number answers come in order', (code) => {
