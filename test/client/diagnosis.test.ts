@@ -40,6 +40,11 @@ describe('a PLC that has never answered', () => {
     expect(explain({ route })).toHaveLength(5)
   })
 
+  test('of a family with one frame is not told to try another', () => {
+    expect(explain({ frames: ['3E'] }).join('\n')).not.toContain('frame: try')
+    expect(explain({ frames: ['3E', '4E'] }).join('\n')).toContain('frame: try 4E')
+  })
+
   test('every cause says what to check', () => {
     for (const cause of explain({ transport: 'udp', frame: '4E', route: { network: 2, station: 1 } })) {
       expect(cause).toMatch(/compare|register|use the port|try|check|raise/)

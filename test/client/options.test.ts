@@ -75,13 +75,17 @@ describe('defaults', () => {
 describe('refused', () => {
   // As programs without types call it.
   const cases: readonly [what: string, given: Record<string, unknown>, field: string, says: string][] = [
+    ['a misspelt option', { allowWrite: true }, 'allowWrite', 'There is no option allowWrite'],
+    ['a misspelt pause', { reconnect: { max: 5 } }, 'reconnect.max', 'There is no option reconnect.max'],
+    ['half a word for the digits of X and Y', { asciiXy: 'oct' }, 'asciiXy', 'must be'],
+    ['a radix for the digits of ZR', { asciiZr: 16 }, 'asciiZr', 'must be'],
     ['no host', { host: undefined }, 'host', 'host is missing'],
     ['an empty host', { host: ' ' }, 'host', 'host is missing'],
     ['no port', { port: undefined }, 'port', 'port is undefined; it must be a whole number from 1 to 65535'],
     ['port 0', { port: 0 }, 'port', 'port is 0'],
     ['a port that is text', { port: '5007' }, 'port', 'port is 5007'],
     ['another transport', { transport: 'serial' }, 'transport', 'must be tcp or udp'],
-    ['another profile', { profile: 'fx3' }, 'profile', 'Choose one of: iq-r, iq-f, q, l, generic'],
+    ['another profile', { profile: 'fx9' }, 'profile', 'Choose one of: iq-r, iq-f, q, l, fx3, generic'],
     ['another frame', { frame: '2E' }, 'frame', 'has no 2E frame'],
     ['a frame the family lacks', { profile: 'iq-f', frame: '4E' }, 'frame', 'has no 4E frame: use 3E'],
     ['another code', { code: 'hex' }, 'code', 'must be binary or ascii'],
