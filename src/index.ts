@@ -3,6 +3,7 @@
 export type { CallOptions } from './client/call'
 export type { ConnectionState } from './client/connection'
 export type { ClearMode, Control, Identity, PauseOptions, RunOptions } from './client/control'
+export type { LabelItem, LabelOptions, LabelReadResult, Labels, LabelValue, LabelWriteResult } from './client/labels'
 export {
   type ClientEvents,
   createMelsecClient,

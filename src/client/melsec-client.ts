@@ -19,6 +19,7 @@ import { type Control, controlOf, type Identity, identify, type Send, selfTest }
 import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
 import { checkBooleans, checkRequest, isItem, isList, listOf, namesOf } from './given'
+import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
 import { ItemMonitor, type Monitor, type MonitorCall, Registration } from './monitor'
 import { type MelsecClientOptions, type Settings, settle } from './options'
@@ -83,6 +84,8 @@ export class MelsecClient {
   readonly options: Omit<MelsecClientOptions, 'password'>
   /** Remote RUN, STOP, PAUSE, latch clear and reset. Needs `allowControl`. */
   readonly control: Control
+  /** Global labels by name (iQ-R). Writing needs `allowWrites`. */
+  readonly labels: Labels
 
   constructor(given: MelsecClientOptions) {
     const settings = settle(given)
@@ -119,6 +122,18 @@ export class MelsecClient {
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = (command, message, call) => this.request(command, message, call)
     this.control = controlOf(this.#send, settings.profile)
+    this.labels = labelsOf({
+      call: (call) => {
+        const { send } = this.#call(call)
+        return {
+          protocol: this.#protocol,
+          send: async (command, message) => send(this.#protocol.exchange(command, message)),
+        }
+      },
+      permitWrite: () => this.#permit('write', 'Writing'),
+      time: () => settings.clock.time(),
+      encoding: settings.format.encoding,
+    })
   }
 
   /** The family of PLCs it speaks to, with the overrides merged in. */
