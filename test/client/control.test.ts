@@ -40,11 +40,12 @@ describe.each(kinds)('over %s', (text) => {
 
   test('it says who it is', () =>
     withLine(text, {}, async ({ client, profile }) => {
-      const expected: Readonly<Record<ProfileId, unknown>> = {
+      const expected: Readonly<Partial<Record<ProfileId, unknown>>> = {
         'iq-r': { model: 'R08CPU', modelCode: 0x4801, profile: 'iq-r' },
         'iq-f': { modelCode: 0x4a21, profile: 'iq-f' },
         q: { model: 'Q03UDVCPU', modelCode: 0x0366, profile: 'q' },
         l: { model: 'L02CPU', modelCode: 0x0541, profile: 'l' },
+        fx3: { modelCode: 0xf3 },
         generic: { modelCode: 0x4801, profile: 'iq-r' },
       }
       const identity = await client.identify()
