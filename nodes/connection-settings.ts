@@ -140,7 +140,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       transport: choice(settings, 'transport', ['tcp', 'udp'], texts),
       localAddress: settings.localAddress === '' ? undefined : settings.localAddress,
       localPort: number('localPort'),
-      frame: choice(settings, 'frame', ['3E', '4E'], texts),
+      frame: choice(settings, 'frame', ['3E', '4E', '1E'], texts),
       code: choice(settings, 'code', ['binary', 'ascii'], texts),
       asciiXy: choice(settings, 'asciiXy', ['octal', 'hexadecimal'], texts),
       asciiZr: choice(settings, 'asciiZr', ['decimal', 'hexadecimal'], texts),

@@ -2,6 +2,7 @@
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import type { Exchange } from '../link/link'
+import { namedAsFx5 } from '../melsec/a-compatible-rules'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import { frame3e, type Head3e } from '../melsec/frame-3e'
@@ -282,13 +283,17 @@ export class MelsecClient {
   #parse(item: Item): ParsedItem | RefusedItem {
     try {
       const { xyRadix, xyUnknown, format } = this.#settings
-      const parsed = parseItem(item, { xyRadix, format })
+      const parsed = this.#renamed(parseItem(item, { xyRadix, format }))
       if (xyUnknown) refuseAmbiguousXy(item, parsed)
       return parsed
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
       return { text: typeof item === 'string' ? item : String(item?.address), error }
     }
+  }
+
+  #renamed(item: ParsedItem): ParsedItem {
+    return this.#settings.profile.id === 'fx3' ? { ...item, address: namedAsFx5(item.address) } : item
   }
 
   /** What reading the item will touch, for people and editors. @throws RequestError when it is not an item. */

@@ -145,6 +145,17 @@ export function fromFrame(
   return row === undefined ? undefined : { device: row.device, number: row.number + number - row.from }
 }
 
+/**
+ * What an FX3 user calls M8000, D8000 or CS200 under the names the device table has for it: SM8000, SD8000, LCS0. Not
+ * CN200: it has 32 bits here, and who writes it means one word.
+ */
+export function namedAsFx5(address: DeviceAddress): DeviceAddress {
+  if (windowOf(fx5Windows, address) !== undefined || address.device === 'CN') return address
+  const { device, number, ...rest } = address
+  const named = fromFrame(fx5Windows, { device, number })
+  return named === undefined ? address : { ...rest, ...named }
+}
+
 /** Why a command cannot be asked for `points` from `address` on; `undefined` when it can. */
 export function aCompatibleProblem(
   windows: readonly ACompatibleWindow[],

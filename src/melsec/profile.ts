@@ -5,6 +5,7 @@ import { RequestError } from '../errors'
 import type { CommandName } from './commands/commands'
 import type { DeviceName, ExtensionKind } from './device'
 import type { LimitRule, LimitUnit } from './limit'
+import { fx3 } from './profiles/fx3'
 import { generic } from './profiles/generic'
 import { iqF } from './profiles/iq-f'
 import { iqR } from './profiles/iq-r'
@@ -12,7 +13,7 @@ import { l } from './profiles/l'
 import { withOverrides } from './profiles/override'
 import { q } from './profiles/q'
 
-export type ProfileId = 'iq-r' | 'iq-f' | 'q' | 'l' | 'generic'
+export type ProfileId = 'iq-r' | 'iq-f' | 'q' | 'l' | 'fx3' | 'generic'
 export type FrameName = '3E' | '4E' | '1E'
 export type TransportName = 'tcp' | 'udp'
 /** Device specification: the subcommands 000x, 0002/0003 (iQ-R), 0080/0081 and 0082/0083. */
@@ -162,9 +163,16 @@ export interface ProfileOverrides {
 }
 
 /** Every profile by its id. */
-export const profiles: Readonly<Record<ProfileId, Profile>> = { 'iq-r': iqR, 'iq-f': iqF, q, l, generic }
+export const profiles: Readonly<Record<ProfileId, Profile>> = {
+  'iq-r': iqR,
+  'iq-f': iqF,
+  q,
+  l,
+  fx3,
+  generic,
+}
 
-export const profileIds: readonly ProfileId[] = ['iq-r', 'iq-f', 'q', 'l', 'generic']
+export const profileIds: readonly ProfileId[] = ['iq-r', 'iq-f', 'q', 'l', 'fx3', 'generic']
 
 function isProfileId(id: string): id is ProfileId {
   return Object.hasOwn(profiles, id)

@@ -15,7 +15,7 @@ import {
   windowOf,
 } from './a-compatible-rules'
 import type { Command, RequestOf, ResponseOf } from './command'
-import { type CommandName, commands } from './commands/commands'
+import type { CommandName } from './commands/commands'
 import { type DeviceAddress, deviceInfo } from './device'
 import type { Head1e } from './frame-1e'
 import type { Head3e } from './frame-3e'
@@ -28,10 +28,6 @@ type Bag = Readonly<Record<string, unknown>>
 
 const NO_NAME = ''
 const NAME_LENGTH = 16
-
-const lacking: readonly CommandName[] = Object.values(commands)
-  .map(({ name }) => name)
-  .filter((name) => !isOver1e(name))
 
 /** A request of 1E and what of its answer is wanted. */
 interface Said {
@@ -87,7 +83,7 @@ class SlmpOver1e implements ClientProtocol<Head3e> {
     this.#family = aCompatibleFamilies[family]
     this.#protocol = aCompatibleProtocol({ ...options, family })
     this.framing = framingOf(this.#protocol.framing)
-    this.profile = profileOver1e(profile, this.#family.windows, lacking)
+    this.profile = profileOver1e(profile, this.#family.windows)
     this.code = options.code
   }
 

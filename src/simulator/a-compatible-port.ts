@@ -15,6 +15,7 @@ import {
   aCompatibleLimit,
   aCompatibleProblem,
   fromFrame,
+  fx5Windows,
   type OddBits,
 } from '../melsec/a-compatible-rules'
 import type { CommandName } from '../melsec/commands/commands'
@@ -77,7 +78,7 @@ export class ACompatiblePort {
   readonly #protocol: HeadProtocol<Head1e>
 
   constructor({ profile, code, asciiXy, oddBits }: ACompatiblePortOptions) {
-    const family: ACompatibleFamilyId = 'iq-f'
+    const family: ACompatibleFamilyId = profile.id === 'fx3' ? 'fx3' : 'iq-f'
     this.#code = code
     this.#profile = profile
     this.#family = aCompatibleFamilies[family]
@@ -162,7 +163,8 @@ export class ACompatiblePort {
   }
 
   #device(name: ACompatibleCommandName, address: DeviceAddress, points: number): DeviceAddress {
-    const { windows } = this.#family
+    // The memory has special relays and registers under their iQ-F names, whatever the family calls them.
+    const windows = fx5Windows
     const device = fromFrame(windows, address)
     if (device === undefined) {
       throw new Refusal(END.device, `1E does not reach ${address.device}${address.number}`)
@@ -174,10 +176,11 @@ export class ACompatiblePort {
 
   /** The refusal of a handler, whose end codes are those of the SLMP set, in 1E. */
   refusalOf(refusal: Refusal): Refusal {
-    const { endCode, message } = refusal
-    if (endCode <= 0xff) return refusal
+    const { endCode, message, abnormal } = refusal
     const { deviceName, deviceNumber, remote, notInStop } = this.#profile.refusals
-    if (endCode === remote || endCode === notInStop) return new Refusal(END.cpu, message, ABNORMAL.remote)
+    const isRemote = endCode === remote || endCode === notInStop
+    if (isRemote && abnormal === undefined) return new Refusal(END.cpu, message, ABNORMAL.remote)
+    if (endCode <= 0xff) return refusal
     if (endCode === deviceNumber) return new Refusal(END.points, message)
     return endCode === deviceName ? new Refusal(END.device, message) : new Refusal(END.cpu, message, ABNORMAL.pc)
   }

@@ -29,7 +29,7 @@ export interface PlcSimulatorOptions {
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** ASCII code: digits of ZR. Default `decimal`. */
   readonly asciiZr?: 'decimal' | 'hexadecimal'
-  /** 1E in ASCII code: whether a dummy character follows an odd number of bits. Default `exact`: the manual has none. */
+  /** 1E in ASCII code: whether a dummy character follows an odd number of bits. Default FX3 `padded`, iQ-F `exact`: the manual has none. */
   readonly oddBits?: OddBits
   /** Address to listen on. Default 127.0.0.1, so that nothing is offered to a network unasked. */
   readonly host?: string
@@ -108,6 +108,8 @@ const MODEL_CODES: Readonly<Record<ProfileId, number>> = {
   'iq-f': 0x4a21,
   q: 0x0366,
   l: 0x0541,
+  // What 1E tells of itself (a-compatible-type.ts); it has no names.
+  fx3: 0xf3,
   generic: 0x4801,
 }
 
@@ -128,7 +130,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
       'hexadecimal',
     ]),
     asciiZr: oneOf('asciiZr', options.asciiZr ?? 'decimal', ['decimal', 'hexadecimal']),
-    oddBits: oneOf('oddBits', options.oddBits ?? 'exact', ['exact', 'padded']),
+    oddBits: oneOf('oddBits', options.oddBits ?? (profile.id === 'fx3' ? 'padded' : 'exact'), ['exact', 'padded']),
     host: options.host ?? '127.0.0.1',
     tcp: options.tcp ?? {},
     udp: options.udp ?? {},
@@ -166,7 +168,7 @@ function framesOf(profile: Profile, frames: readonly FrameName[] = profile.frame
 
 function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['model'] {
   const code = given?.code ?? MODEL_CODES[id]
-  const name = given?.name ?? modelOf(code)?.models[0] ?? ''
+  const name = given?.name ?? modelOf(code)?.models[0] ?? (id === 'fx3' ? 'FX3U' : '')
   if (!/^[\x20-\x7e]+$/.test(name) || name.length > MODEL_LENGTH) {
     bad('model.name', `A model name has 1 to ${MODEL_LENGTH} ASCII characters, unlike ${JSON.stringify(name)}.`)
   }

@@ -30,6 +30,8 @@ const passwordRefusals: Readonly<Record<ProfileId, PasswordRefusals>> = {
   generic: authentication,
   q: remotePassword,
   l: remotePassword,
+  // A 1E frame has no command for it.
+  fx3: remotePassword,
 }
 
 /** The port is locked by the remote password. */

@@ -53,18 +53,22 @@ const cpuModules: FurtherRefusals = {
   module: 0x4b02,
 }
 
+// 47.4: C05B device that cannot be accessed, C05F request that the target cannot execute, C056 address.
+const iqF: FurtherRefusals = {
+  device: 0xc05b,
+  monitoredContact: 0xc05b,
+  wholeDevices: 0xc05c,
+  bufferMemory: 0xc056,
+  station: 0xc05f,
+  module: 0xc05f,
+}
+
 export const furtherRefusals: Readonly<Record<ProfileId, FurtherRefusals>> = {
   'iq-r': cpuModules,
   generic: cpuModules,
   q: { ...cpuModules, device: 0xc05b },
   l: { ...cpuModules, device: 0xc05b },
-  // 47.4: C05B device that cannot be accessed, C05F request that the target cannot execute, C056 address.
-  'iq-f': {
-    device: 0xc05b,
-    monitoredContact: 0xc05b,
-    wholeDevices: 0xc05c,
-    bufferMemory: 0xc056,
-    station: 0xc05f,
-    module: 0xc05f,
-  },
+  'iq-f': iqF,
+  // None of them is reached: the port checks 1E requests itself.
+  fx3: iqF,
 }

@@ -139,7 +139,7 @@ describe('profiles', () => {
         .trim()
         .split('\n')
         .map((line) => line.split(' ')[0]),
-    ).toEqual(['PROFILE', 'iq-r', 'iq-f', 'q', 'l', 'generic'])
+    ).toEqual(['PROFILE', 'iq-r', 'iq-f', 'q', 'l', 'fx3', 'generic'])
   })
 
   test('tells all about one', async () => {
@@ -149,14 +149,14 @@ describe('profiles', () => {
   })
 
   test('as JSON', async () => {
-    expect(JSON.parse((await run('profiles', '--json')).out).profiles).toHaveLength(5)
+    expect(JSON.parse((await run('profiles', '--json')).out).profiles).toHaveLength(6)
     expect(JSON.parse((await run('profiles', 'q', '--json')).out)).toMatchObject({ id: 'q', xyRadix: 16 })
   })
 
   test('an unknown one is wrong use', async () => {
     const { code, err } = await runHere(['profiles', 'x'])
     expect(code).toBe(2)
-    expect(err).toContain('iq-r, iq-f, q, l, generic')
+    expect(err).toContain('iq-r, iq-f, q, l, fx3, generic')
   })
 })
 

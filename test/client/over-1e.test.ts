@@ -115,6 +115,78 @@ describe.each(CODES)('%s', (code) => {
     }))
 })
 
+describe.each(CODES)('FX3, %s', (code) => {
+  const fx3 = async (run: (joined: Joined) => Promise<void>): Promise<void> => {
+    const plc = createPlcSimulator({ profile: 'fx3', code })
+    await plc.listen()
+    const port = plc.tcp?.port ?? 0
+    const client = new MelsecClient({
+      host: '127.0.0.1',
+      port,
+      profile: 'fx3',
+      code,
+      asciiXy: 'octal',
+      allowWrites: true,
+    })
+    try {
+      await run({ plc, client })
+    } finally {
+      await client.close()
+      await plc.close()
+    }
+  }
+
+  test('speaks 1E by itself, with its own names', () =>
+    fx3(async ({ plc, client }) => {
+      const items = [
+        'D0',
+        'D7999',
+        'D8000',
+        'M7679',
+        'M8000',
+        'M8511',
+        'CS199',
+        'CS200',
+        'CS255',
+        'X377',
+        'LCN55',
+        'M0[3]',
+      ]
+      for (const item of ['D8000', 'D7999']) plc.write(item.replace('D8', 'SD8'), 5)
+      for (const item of ['M7679', 'SM8000', 'SM8511', 'CS199', 'LCS0', 'LCS55', 'X377', 'M2']) plc.write(item, true)
+      plc.write('LCN55', -70_000)
+      const expected = [0, 5, 5, true, true, true, true, true, true, true, -70_000, [false, false, true]]
+      expect(await client.readValues(items)).toEqual(expected)
+      expect(client.profile.frame).toBe('1E')
+      const written = { D8013: 7, M8034: true, 'M101[3]': [true, true, true], CS200: false }
+      expect(Object.values(await client.write(written)).every(({ ok }) => ok)).toBe(true)
+      expect(['SD8013', 'SM8034', 'M101', 'M103', 'M104', 'LCS0'].map((item) => plc.read(item))).toEqual([
+        7,
+        true,
+        true,
+        true,
+        false,
+        false,
+      ])
+    }))
+
+  test('the 32-bit counters and the gap between M7679 and M8000 are told', () =>
+    fx3(async ({ client }) => {
+      await expect(client.read('CN200')).rejects.toMatchObject({ message: expect.stringContaining('LCN0') })
+      await expect(client.read('M7700')).rejects.toMatchObject({ code: 'OUT_OF_RANGE', outcome: 'notSent' })
+      await expect(client.read('M7990..M8010')).rejects.toMatchObject({ outcome: 'notSent' })
+    }))
+
+  test('an abnormal code has two bytes, and the connection lives', () =>
+    fx3(async ({ plc, client }) => {
+      await client.connect()
+      plc.faults.add({ kind: 'endCode', endCode: 0x5b, times: 1 })
+      await expect(client.read('D0')).rejects.toMatchObject({ endCode: 0x5b })
+      expect(await client.read('D0')).toBe(0)
+      expect(plc.statistics.connections).toBe(1)
+    }))
+})
+
 describe('what 1E cannot do is refused before anything is sent', () => {
   const untouched = async (run: (client: MelsecClient) => Promise<unknown>): Promise<unknown> => {
     let error: unknown

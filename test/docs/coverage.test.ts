@@ -197,7 +197,7 @@ describe('profiles', () => {
       const profile = profiles[id]
       const frames = [profile.frame, ...profile.frames.filter((frame) => frame !== profile.frame)].join(', ')
       const commandsOfLimits = ['readWords', 'readBits', 'readRandom'] as const
-      const limits = commandsOfLimits.map((name) => limitsOf(profile, name, profile.form, 'binary')[0]?.max)
+      const limits = commandsOfLimits.map((name) => limitsOf(profile, name, profile.form, 'binary')[0]?.max ?? '–')
       const monitor = lackOf(profile, 'entryMonitorDevice')
         ? 'no'
         : doubtOf(profile, 'entryMonitorDevice')

@@ -125,7 +125,24 @@ const generic: Table = {
   },
 }
 
-const tables: Readonly<Record<ProfileId, Table>> = { 'iq-r': iqR, 'iq-f': iqF, q: qAndL, l: qAndL, generic }
+/** FX5 39.1, the lower of bit and word devices. */
+const fx3: Table = {
+  readWords: { short: [32, 32], long: [32, 32] },
+  writeWords: { short: [10, 10], long: [10, 10] },
+  readBits: { short: [256, 256], long: [256, 256] },
+  writeBits: { short: [160, 160], long: [160, 160] },
+  readRandom: {},
+  entryMonitorDevice: {},
+  writeRandomBits: { short: [80, 80], long: [80, 80] },
+  writeRandomWords: { short: [10, 10], long: [10, 10] },
+  'writeRandomWords, double words': { short: [5, 5], long: [5, 5] },
+  'readBlock, blocks': {},
+  'readBlock, points': {},
+  'writeBlock, blocks': {},
+  'writeBlock, points of one block': {},
+}
+
+const tables: Readonly<Record<ProfileId, Table>> = { 'iq-r': iqR, 'iq-f': iqF, q: qAndL, l: qAndL, fx3, generic }
 
 function caught(run: () => void): RequestError {
   try {

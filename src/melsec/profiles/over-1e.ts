@@ -1,7 +1,7 @@
 // What is left of a profile when its PLC is spoken to in 1E frames: fewer commands and devices, and smaller requests.
 import type { ACompatibleCommandName } from '../a-compatible'
 import { type ACompatibleWindow, aCompatibleLimitSource, aCompatibleLimits } from '../a-compatible-rules'
-import type { CommandName } from '../commands/commands'
+import { type CommandName, commands } from '../commands/commands'
 import { devices } from '../device'
 import type { LimitRule, Weights } from '../limit'
 import type { DeviceExclusion, DeviceForm, Lack, Profile } from '../profile'
@@ -33,6 +33,13 @@ const TOO_MANY = 0x57
 const NO_DEVICE = 0x56
 const NO_COMMAND = 0x50
 const source = aCompatibleLimitSource
+
+/** Not at load: the list of commands and the profiles know each other. */
+function lacking(): readonly CommandName[] {
+  return Object.values(commands)
+    .map(({ name }) => name)
+    .filter((name) => !isOver1e(name))
+}
 
 function lackOf(command: CommandName): Lack {
   return {
@@ -67,15 +74,11 @@ const exclusions: readonly DeviceExclusion[] = [
 ]
 
 /** The profile of the same PLC over 1E. */
-export function profileOver1e(
-  profile: Profile,
-  windows: readonly ACompatibleWindow[],
-  lacking: readonly CommandName[],
-): Profile {
+export function profileOver1e(profile: Profile, windows: readonly ACompatibleWindow[]): Profile {
   const reached = new Set(windows.map(({ device }) => device))
   return {
     ...profile,
-    title: `${profile.title} in a 1E frame`,
+    title: profile.frames.length > 1 ? `${profile.title} in a 1E frame` : profile.title,
     frames: ['1E'],
     frame: '1E',
     forms,
@@ -83,7 +86,7 @@ export function profileOver1e(
     shortDevices: [],
     extensions: [],
     absentDevices: devices.map(({ name }) => name).filter((name) => !reached.has(name)),
-    lacks: lacking.map(lackOf),
+    lacks: lacking().map(lackOf),
     doubtful: [],
     exclusions,
     limits: aCompatibleLimits.flatMap(ruleOf),

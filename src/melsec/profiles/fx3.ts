@@ -1,0 +1,85 @@
+import { fx3Windows } from '../a-compatible-rules'
+import type { Profile } from '../profile'
+import { profileOver1e } from './over-1e'
+
+const manual = 'background: FX3U-ENET-ADP user’s manual, chapter 7'
+
+/**
+ * FX3 CPUs by FX3U-ENET-ADP or FX3U-ENET, which take 1E frames only. The FX5 communication manual's chapter on 1E (39)
+ * is made to be compatible with them: devices and limits are its figures.
+ */
+export const fx3: Profile = profileOver1e(
+  {
+    id: 'fx3',
+    title: 'MELSEC FX3',
+    series: 'FX3U, FX3UC, FX3G, FX3GC and FX3S CPUs by FX3U-ENET-ADP or FX3U-ENET',
+    xyRadix: 8,
+    frames: ['1E'],
+    frame: '1E',
+    codes: ['binary', 'ascii'],
+    code: 'binary',
+    transports: ['tcp', 'udp'],
+    forms: ['short'],
+    form: 'short',
+    shortDevices: [],
+    extensions: [],
+    absentDevices: [],
+    lacks: [],
+    doubtful: [],
+    exclusions: [],
+    limits: [],
+    ranges: {
+      points: {
+        SM: 8512,
+        SD: 8512,
+        X: 256,
+        Y: 256,
+        M: 7680,
+        S: 4096,
+        D: 8000,
+        R: 32768,
+        TS: 512,
+        TN: 512,
+        CS: 200,
+        CN: 200,
+        LCS: 56,
+        LCN: 56,
+      },
+      source: `FX5 communication manual 39.2; ${manual}`,
+    },
+    refusals: {
+      deviceNumber: 0x57,
+      deviceName: 0x56,
+      bitUnitsOfWordDevice: 0x58,
+      extension: 0x56,
+      command: 0x50,
+      monitorNotRegistered: 0x50,
+      length: 0x57,
+      notInStop: 0x5b,
+      remote: 0x5b,
+      source: manual,
+    },
+    inFlight: { tcp: 1, udpBuffer: 0, source: 'the answer names no request: one at a time' },
+    monitoringTimer: {
+      default: 2500,
+      zeroOnly: false,
+      recommended: { from: 250, to: 10_000 },
+      source: `${manual}: its examples have 000AH, 2500 ms`,
+    },
+    subcommands: {},
+    remote: { clearModes: [0], reset: 'not by a 1E frame', source: 'FX5 communication manual 39.3' },
+    notes: [
+      'Special relays and registers M8000 to M8511 and D8000 to D8511 are also called SM8000 and SD8000 here, because the iQ-F calls them so.',
+      'The counters of 32 bits C200 to C255 are LCN0 to LCN55 (value) and LCS0 to LCS55 (contact).',
+      'The port needs an open setting with MC protocol in GX Works2; its data code is set there, too.',
+    ],
+    sources: {
+      xyRadix: manual,
+      frames: `${manual}: A-compatible 1E frame only`,
+      forms: manual,
+      extensions: manual,
+      absentDevices: manual,
+    },
+  },
+  fx3Windows,
+)
