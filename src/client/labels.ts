@@ -66,11 +66,11 @@ export interface LabelParts {
   readonly encoding: Encoding | undefined
 }
 
-export function labelsOf(parts: LabelParts): Labels {
+export function labelsOf(parts: LabelParts): LabelAccess {
   return new LabelAccess(parts)
 }
 
-class LabelAccess implements Labels {
+export class LabelAccess implements Labels {
   readonly #parts: LabelParts
 
   constructor(parts: LabelParts) {
@@ -82,11 +82,11 @@ class LabelAccess implements Labels {
   async read(labels: LabelItem | readonly LabelItem[], options: LabelOptions = {}): Promise<unknown> {
     checkBooleans(options, [])
     if (isItem(labels)) {
-      const [result] = await this.#read([labels], options)
+      const [result] = await this.readList([labels], options)
       if (result?.ok === true) return result.value
       throw result?.error
     }
-    return this.#read(listOf(labels, 'labels'), options)
+    return this.readList(listOf(labels, 'labels'), options)
   }
 
   /** The options with the client's own encoding. */
@@ -95,7 +95,8 @@ class LabelAccess implements Labels {
     return encoding === undefined ? options : { encoding, ...options }
   }
 
-  async #read(items: readonly LabelItem[], given: LabelOptions): Promise<LabelReadResult[]> {
+  /** Many labels, each with its own result. */
+  async readList(items: readonly LabelItem[], given: LabelOptions): Promise<LabelReadResult[]> {
     const options = this.#settled(given)
     const requests = new LabelRequests(this.#parts.call(options))
     const asked = items.map((item) => attempt(() => askedLabel(item)))
@@ -142,17 +143,18 @@ class LabelAccess implements Labels {
     third?: LabelOptions,
   ): Promise<unknown> {
     if (typeof target === 'string') {
-      const [result] = await this.#write([[target, second as LabelValue]], third ?? {})
+      const [result] = await this.writeList([[target, second as LabelValue]], third ?? {})
       if (result?.ok === false) throw result.error
       return undefined
     }
     const names = namesOf(target, 'Labels to write are a name and its value, or an object by name')
     const entries = names.map((name) => [name, target[name] as LabelValue] as const)
-    const results = await this.#write(entries, (second as LabelOptions | undefined) ?? {})
+    const results = await this.writeList(entries, (second as LabelOptions | undefined) ?? {})
     return Object.fromEntries(results.map((result) => [result.label, result]))
   }
 
-  async #write(
+  /** Many labels in their order, the same one also twice. */
+  async writeList(
     entries: readonly (readonly [label: string, value: LabelValue])[],
     given: LabelOptions,
   ): Promise<LabelWriteResult[]> {

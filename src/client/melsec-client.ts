@@ -20,6 +20,7 @@ import { type Control, controlOf, type Identity, identify, type Send, selfTest }
 import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
 import { checkBooleans, checkRequest, isItem, isList, listOf, namesOf } from './given'
+import { isLabelItem, type MixedAccess, readWithLabels, writeWithLabels } from './label-in-items'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
 import { ItemMonitor, type Monitor, type MonitorCall, Registration } from './monitor'
@@ -38,6 +39,7 @@ import {
   type WriteResult,
 } from './plan'
 import { RemotePassword } from './remote-password'
+import { byName, plainValue } from './results'
 import type { Statistics } from './statistics'
 import { Tracer } from './trace'
 import { refuseAmbiguousXy } from './xy-notation'
@@ -80,6 +82,7 @@ export class MelsecClient {
   /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
   #monitored = false
   readonly #send: Send
+  readonly #mixed: MixedAccess
   readonly #password: RemotePassword
   /** As given, without the password. */
   readonly options: Omit<MelsecClientOptions, 'password'>
@@ -123,7 +126,7 @@ export class MelsecClient {
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = (command, message, call) => this.request(command, message, call)
     this.control = controlOf(this.#send, settings.profile)
-    this.labels = labelsOf({
+    const labels = labelsOf({
       call: (call) => {
         const { send } = this.#call(call)
         return {
@@ -135,6 +138,14 @@ export class MelsecClient {
       time: () => settings.clock.time(),
       encoding: settings.format.encoding,
     })
+    this.labels = labels
+    this.#mixed = {
+      labels,
+      read: (items, call) => this.#prepare(items).run(call),
+      write: (entries, call) => this.planWrite(entries, call).run(call),
+      deadline: (call) => new Deadline(settings.clock, call, settings.timeout),
+      time: () => settings.clock.time(),
+    }
   }
 
   /** The family of PLCs it speaks to, with the overrides merged in. */
@@ -234,7 +245,8 @@ export class MelsecClient {
   }
 
   /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
-  #prepare(items: readonly Item[]): ReadPlan {
+  #prepare(items: readonly Item[]): Pick<ReadPlan, 'run'> {
+    if (items.some(isLabelItem)) return { run: (options) => readWithLabels(items, options, this.#mixed) }
     if (!items.every((item) => typeof item === 'string')) return this.plan(items)
     // Not joined: whatever stood between two texts could also stand in one.
     const key = JSON.stringify(items)
@@ -343,6 +355,8 @@ export class MelsecClient {
     entries: readonly WriteEntry[],
     options: (CallOptions & WriteOptions) | undefined,
   ): Promise<WriteResult[]> {
+    const hasLabels = listOf(entries, 'entries').some((entry) => isLabelItem(entry?.item))
+    if (hasLabels) return writeWithLabels(entries, options ?? {}, this.#mixed)
     return this.planWrite(entries, options).run(options)
   }
 
@@ -469,15 +483,6 @@ function transportOf(
 }
 
 const ITEMS = 'Items to read are one item, a list of items, or an object of items by name'
-
-function plainValue(result: ReadResult | undefined): ReadValue {
-  if (result?.ok === true) return result.value
-  throw result?.error ?? new RequestError('BAD_ADDRESS', 'There is nothing to read.')
-}
-
-function byName<T>(names: readonly string[], values: readonly T[]): Record<string, T> {
-  return Object.fromEntries(names.map((name, i) => [name, values[i] as T]))
-}
 
 /**
  * Makes a client. Nothing is connected before the first call or `connect()`.
