@@ -45,12 +45,13 @@ export function trend(msg) {
  */
 export function setPointsThatChanged(msg, context) {
   const names = ['levelSetPoint', 'temperatureSetPoint', 'mixingTime', 'recipe']
-  if (msg.payload === 'show again') {
-    // A write has succeeded or failed: the inputs must show what the PLC holds now.
-    context.set('shown', {})
+  const shown = { ...context.get('shown') }
+  if (msg.payload.written !== undefined) {
+    // A write has succeeded or failed: its inputs, and no other that somebody may be typing into, show the PLC's value.
+    for (const name of msg.payload.written) delete shown[name]
+    context.set('shown', shown)
     return null
   }
-  const shown = context.get('shown') ?? {}
   const outputs = names.map((name) => (msg.payload[name] === shown[name] ? null : { payload: msg.payload[name] }))
   context.set('shown', Object.fromEntries(names.map((name) => [name, msg.payload[name]])))
   return outputs

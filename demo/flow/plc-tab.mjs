@@ -304,7 +304,13 @@ function operate({ canvas, tags, group, uses }) {
       from: ['again-out', 'failed-again-out'],
       wires: [['again']],
     }),
-    setPayload('"show again"', { id: 'again', column: 70, row: 2, name: 'show again', wires: [['setpoints']] }),
+    setPayload('{ "written": [$keys(payload)] }', {
+      id: 'again',
+      column: 70,
+      row: 2,
+      name: 'show again',
+      wires: [['setpoints']],
+    }),
     functionNode(setPointsThatChanged, {
       id: 'setpoints',
       column: 230,
