@@ -20,6 +20,9 @@ const LAST = { basicSegment: 0x80, basic: 0xffff, extended: [0xffff, 0x7fffff] }
 export const jwAddress: ValueCodec<JwAddress> = {
   name: 'address',
   write(writer, value) {
+    if (value.extended !== undefined && value.extended !== true) {
+      throw new RequestError('BAD_MESSAGE', `extended is true or left out, not ${String(value.extended)}`)
+    }
     const last = lastAddress(value)
     if (last === undefined) throw outOfRange('segment', value.segment)
     if (!Number.isInteger(value.address) || value.address < 0 || value.address > last)

@@ -15,6 +15,9 @@ import type { DeviceForm, Profile } from './profile'
 
 type Bag = Readonly<Record<string, unknown>>
 
+/** Bytes of command and subcommand in front of the data. */
+const COMMAND_SIZE = { binary: 4, ascii: 8 } as const
+
 export interface MelsecProtocolOptions<Head> {
   readonly framing: Framing<Head>
   /** Head of every request: route and monitoring timer. */
@@ -116,19 +119,22 @@ export class MelsecProtocol<Head> {
     const bag: Bag = message
     const form = this.#formOf(command, bag, options)
     checkLimits(this.profile, command.name as CommandName, form, this.code, bag)
-    const context = this.#contextOf(command, bag, options)
     const bits = FORM_BITS[form] | this.#digitBits
     const subcommand = subcommandOf(command, form, this.profile)
     const writer = writerOf(this.code, bits)
     writer.uint(command.code, 2)
     writer.uint(subcommand, 2)
     encode(command.request, bag, writer)
+    const body = writer.take()
+    // What was sent counts, not an object that the caller may change before the answer comes.
+    const sent: Bag = decode(command.request, readerOf(this.code, body.subarray(COMMAND_SIZE[this.code]), bits))
+    const context = this.#contextOf(command, sent, options)
     return {
       title: command.title,
       effect: command.effect,
-      message: bag,
+      message: sent,
       head: this.#head,
-      body: writer.take(),
+      body,
       answered: command.answered !== 'no',
       responseLength: () => measure(command.response, { ascii: this.code === 'ascii', form: bits, context }),
       decode: (frame) => this.#decode(command, subcommand, bits, context, frame),
@@ -157,7 +163,7 @@ export class MelsecProtocol<Head> {
         'context',
       )
     }
-    return { shape: commands[command.context as CommandName].request, message: options.context }
+    return { shape: commands[command.context as CommandName].request, message: structuredClone(options.context) }
   }
 
   #decode<C extends Command>(
