@@ -1,5 +1,6 @@
 // The public names. No code.
 
+export type { BufferMemory } from './client/buffer-memory'
 export type { CallOptions } from './client/call'
 export type { ConnectionState } from './client/connection'
 export type { ClearMode, Control, Identity, PauseOptions, RunOptions } from './client/control'
@@ -62,6 +63,7 @@ export {
   languages,
 } from './melsec/end-code'
 export { explainFrame, formatExplanation } from './melsec/explain-frame'
+export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
 export { modelCodes, modelOf } from './melsec/model-code'
 export {
   type DeviceForm,

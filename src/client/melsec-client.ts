@@ -5,14 +5,12 @@ import type { Exchange } from '../link/link'
 import { namedAsFx5 } from '../melsec/a-compatible-rules'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
-import { frame3e, type Head3e } from '../melsec/frame-3e'
+import { extendUnitOf, type ModulePlace } from '../melsec/extend-unit'
+import type { Head3e } from '../melsec/frame-3e'
 import type { Profile } from '../melsec/profile'
-import { type ClientProtocol, type ExchangeOptions, MelsecProtocol } from '../melsec/protocol'
+import type { ClientProtocol, ExchangeOptions } from '../melsec/protocol'
 import { isPasswordRefusal, isPortLocked } from '../melsec/remote-password'
-import { protocolOver1e } from '../melsec/slmp-over-1e'
-import { tcpTransport } from '../transport/tcp'
-import type { OpenTransport } from '../transport/transport'
-import { udpTransport } from '../transport/udp'
+import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
 import { type CallOptions, optionProblem } from './call'
 import type { ClientEvents, ItemValue, ReadPlan, ReadValue, WriteEntry, WritePlan } from './client-types'
 import { Connection, type ConnectionState } from './connection'
@@ -25,6 +23,7 @@ import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
 import { ItemMonitor, type Monitor, type MonitorCall, Registration } from './monitor'
 import { type MelsecClientOptions, type Settings, settle } from './options'
+import { protocolOf, transportOf } from './parts'
 import {
   explainItem,
   type Item,
@@ -90,6 +89,8 @@ export class MelsecClient {
   readonly control: Control
   /** Global labels by name (iQ-R). Writing needs `allowWrites`. */
   readonly labels: Labels
+  /** Buffer memory of the connected module itself: Memory (0613, 1613). */
+  readonly memory: BufferMemory
 
   constructor(given: MelsecClientOptions) {
     const settings = settle(given)
@@ -146,6 +147,7 @@ export class MelsecClient {
       deadline: (call) => new Deadline(settings.clock, call, settings.timeout),
       time: () => settings.clock.time(),
     }
+    this.memory = memoryOf(this.#send, settings.route)
   }
 
   /** The family of PLCs it speaks to, with the overrides merged in. */
@@ -446,6 +448,15 @@ export class MelsecClient {
     return { roundTrip: this.#settings.clock.now() - start }
   }
 
+  /**
+   * Buffer memory of a MELSEC-Q module on the base: Extend Unit (0601, 1601). Nothing is sent yet.
+   * @throws RequestError BAD_OPTION when the module is not in the manual's table
+   * @example const [setting] = await plc.module('Q62DA', { startIo: 0x30 }).read(0x18, 1)
+   */
+  module(model: string, place: ModulePlace): BufferMemory {
+    return moduleOf(this.#send, extendUnitOf(model, place))
+  }
+
   /** Clears the error codes of the connected module and turns its error LED off. Needs `allowControl`. */
   async clearError(options?: CallOptions): Promise<void> {
     await this.#send(commands.clearError, {}, options)
@@ -464,22 +475,6 @@ function notPermitted(title: string, option: 'allowWrites' | 'allowControl'): Re
     `${title} was not sent: ${what} this PLC is not allowed. Set ${option} to true if it should be.`,
     option,
   )
-}
-
-function protocolOf(
-  { frame, code, profile, route, timer }: Settings,
-  { asciiXy, asciiZr }: MelsecClientOptions,
-): ClientProtocol<Head3e> {
-  if (frame === '1E') return protocolOver1e({ profile, code, asciiXy, timer, route })
-  return new MelsecProtocol({ framing: frame3e(frame, code), head: { route, timer }, profile, code, asciiXy, asciiZr })
-}
-
-function transportOf(
-  { transport }: Settings,
-  { host, port, localAddress, localPort }: MelsecClientOptions,
-): OpenTransport {
-  const endpoint = { host, port, localAddress, localPort }
-  return transport === 'udp' ? udpTransport(endpoint) : tcpTransport(endpoint)
 }
 
 const ITEMS = 'Items to read are one item, a list of items, or an object of items by name'

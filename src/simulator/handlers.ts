@@ -4,6 +4,7 @@ import type { MessageInput, MessageOf } from '../codec/codec'
 import type { CommandName, Commands } from '../melsec/commands/commands'
 import type { DeviceAddress } from '../melsec/device'
 import type { Profile } from '../melsec/profile'
+import type { ExtendUnits, OwnBuffer } from './buffer-memory'
 import type { Cpu } from './cpu'
 import type { ErrorLog } from './error-log'
 import type { LabelTable } from './labels'
@@ -29,6 +30,8 @@ export interface Call {
   readonly memory: DeviceMemory
   readonly cpu: Cpu
   readonly errors: ErrorLog
+  readonly buffer: OwnBuffer
+  readonly extendUnits: ExtendUnits
   readonly labels: LabelTable
   /** Model name, padded to 16 characters, and model code. */
   readonly model: { readonly model: string; readonly modelCode: number }
@@ -141,6 +144,18 @@ export const handlers: { readonly [N in CommandName]: Handler<N> } = {
   lock({ password }, { caller, profile }) {
     // FX5 communication manual 38.6: length and password are not used by Lock.
     caller.lock.lock(profile.id === 'iq-f' ? undefined : password)
+    return {}
+  },
+  readMemory: ({ address, points }, { buffer }) => ({ values: buffer.read(address, points) }),
+  writeMemory({ address, values }, { buffer }) {
+    buffer.write(address, values)
+    return {}
+  },
+  readExtendUnit: ({ address, byteCount, moduleNumber }, { memory, extendUnits }) => ({
+    data: extendUnits.read(memory, moduleNumber, address, byteCount),
+  }),
+  writeExtendUnit({ address, moduleNumber, data }, { memory, extendUnits }) {
+    extendUnits.write(memory, moduleNumber, address, data)
     return {}
   },
 }

@@ -17,7 +17,14 @@ import {
 /** Memory outside the CPU's own devices. Without it, such addresses are refused as on a PLC without the module. */
 export interface ExtensionMemory {
   /** Modules with buffer memory: `{ unit: 3, points: 4096 }` is `U3\G0` to `U3\G4095` (start I/O number 0030). */
-  readonly modules?: readonly { readonly unit: number; readonly points: number }[]
+  readonly modules?: readonly {
+    readonly unit: number
+    readonly points: number
+    /** Model of a MELSEC-Q module, e.g. `Q62DA`: Extend Unit (0601, 1601) reaches it, too. */
+    readonly model?: string
+    /** Module No. on slot 0, where the manual does not say it. */
+    readonly slot0?: number
+  }[]
   /** Networks: `{ network: 1, points: { W: 8192 } }` is `J1\W0` to `J1\W1FFF`. */
   readonly networks?: readonly {
     readonly network: number

@@ -60,6 +60,8 @@ export interface PlcSimulatorOptions {
   readonly latch?: readonly DeviceName[]
   /** Buffer memory and link direct devices. Default: none. */
   readonly extensions?: ExtensionMemory
+  /** Words of the port's own buffer memory, for Memory (0613, 1613). Default 0: it has none. */
+  readonly bufferMemory?: number
   /** Global labels that are open to external devices. Default: none. */
   readonly labels?: SimulatedLabels
   /**
@@ -95,6 +97,7 @@ export interface Settings {
   readonly remoteOwner: 'host' | 'connection'
   readonly latch: readonly DeviceName[]
   readonly extensions: ExtensionMemory
+  readonly bufferMemory: number
   readonly labels: LabelTable
   readonly password: string | undefined
   readonly passwordAttempts: number
@@ -148,6 +151,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     remoteOwner: oneOf('remoteOwner', options.remoteOwner ?? 'host', ['host', 'connection']),
     latch: latchOf(options.latch ?? ['L', 'R', 'ZR']),
     extensions: options.extensions ?? {},
+    bufferMemory: whole('bufferMemory', options.bufferMemory ?? 0, 0, 0x1000000),
     labels: new LabelTable(options.labels ?? {}),
     password: passwordOf(profile, options.password),
     passwordAttempts: whole('passwordAttempts', options.passwordAttempts ?? 10, 1),

@@ -5,6 +5,7 @@ import type { Head3e } from '../melsec/frame-3e'
 import type { Profile } from '../melsec/profile'
 import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
 import type { AnyHead } from './any-frame'
+import { ExtendUnits, OwnBuffer } from './buffer-memory'
 import { checkRequest, routeRefusal } from './check'
 import { Cpu, type StateChange } from './cpu'
 import { ErrorLog } from './error-log'
@@ -29,6 +30,8 @@ export interface PlcParts {
   readonly model: Call['model']
   readonly latch: readonly DeviceName[]
   readonly extensions: ExtensionMemory
+  /** Words. */
+  readonly bufferMemory: number
   readonly labels: LabelTable
   readonly resetAllowed: boolean
   readonly otherStations: 'refuse' | 'silence'
@@ -66,7 +69,9 @@ export class Plc {
     })
     const { profile, cpu, errors } = this
     const { labels, model, restart } = parts
-    this.#call = { profile, cpu, errors, memory: this.#devices, labels, model, restart }
+    const buffer = new OwnBuffer(profile, parts.bufferMemory)
+    const extendUnits = new ExtendUnits(profile, parts.extensions)
+    this.#call = { profile, cpu, errors, memory: this.#devices, buffer, extendUnits, labels, model, restart }
     this.#refreshSystemDevices()
   }
 
@@ -115,6 +120,7 @@ export class Plc {
   down(): void {
     this.cpu.down()
     this.#devices.clear('unlatched')
+    this.#call.buffer.clear()
     this.errors.clear()
   }
 

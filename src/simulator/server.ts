@@ -147,7 +147,7 @@ class Simulator implements PlcSimulator {
   #closing: Promise<void> | undefined
 
   constructor(settings: Settings) {
-    const { profile, clock, model, latch, extensions, labels, resetAllowed, otherStations } = settings
+    const { profile, clock, model, latch, extensions, bufferMemory, labels, resetAllowed, otherStations } = settings
     this.#settings = settings
     this.profile = profile
     this.clock = clock
@@ -156,6 +156,7 @@ class Simulator implements PlcSimulator {
       model,
       latch,
       extensions,
+      bufferMemory,
       labels,
       resetAllowed,
       otherStations,

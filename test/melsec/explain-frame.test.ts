@@ -96,7 +96,11 @@ function expectMessage(explanation: FrameExplanation, message: unknown): void {
   const leaves = leavesOf(message).filter(([, value]) => !Array.isArray(value) || value.length > 0)
   // A password is shown as asterisks only.
   const shown = leaves.map(([path, value]) => [path, path === 'password' ? '********' : value])
-  expect(leaves.map(([path]) => [path, valueAt(explanation.rows, path)])).toEqual(shown)
+  const found = leaves.map(([path]) => {
+    const value = valueAt(explanation.rows, path)
+    return [path, value instanceof Uint8Array ? [...value] : value]
+  })
+  expect(found).toEqual(shown)
 }
 
 function explained(bytes: Buffer, options: ExplainFrameOptions = {}): FrameExplanation {

@@ -176,6 +176,36 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     expect(asker.ask(commands.lock, { password: anyPassword(plc.profile) })).toEqual({})
     expect(asker.endCode(commands.readTypeName, {})).toBe(0)
   },
+  readMemory({ asker }) {
+    asker.ask(commands.writeMemory, { address: 8, values: [1, 0xfedc] })
+    expect(asker.ask(commands.readMemory, { address: 8, points: 3 })).toEqual({ values: [1, 0xfedc, 0] })
+    expect(asker.endCode(commands.readMemory, { address: 15, points: 2 })).not.toBe(0)
+  },
+  writeMemory({ asker }) {
+    expect(asker.ask(commands.writeMemory, { address: 14, values: [3, 4] })).toEqual({})
+    expect(asker.endCode(commands.writeMemory, { address: 15, values: [3, 4] })).not.toBe(0)
+    expect(asker.ask(commands.readMemory, { address: 14, points: 2 })).toEqual({ values: [3, 4] })
+  },
+  readExtendUnit({ asker }) {
+    const head = { device: 'G', number: 1, extension: { kind: 'module', unit: 3 } } as const
+    asker.ask(commands.writeWords, { head, values: [0x1234, 0xfedc] })
+    const asked = { address: 0x100a, byteCount: 4, moduleNumber: 3 }
+    expect(asker.ask(commands.readExtendUnit, asked)).toEqual({ data: Buffer.of(0x34, 0x12, 0xdc, 0xfe) })
+    for (const wrong of [
+      { moduleNumber: 4 },
+      { address: 0x1006 },
+      { address: 0x1009 },
+      { byteCount: 3 },
+      { address: 0x1026 },
+    ])
+      expect(asker.endCode(commands.readExtendUnit, { ...asked, ...wrong })).not.toBe(0)
+  },
+  writeExtendUnit({ asker }) {
+    const written = { address: 0x100a, moduleNumber: 3, data: Buffer.of(0x34, 0x12) }
+    expect(asker.ask(commands.writeExtendUnit, written)).toEqual({})
+    const head = { device: 'G', number: 1, extension: { kind: 'module', unit: 3 } } as const
+    expect(asker.ask(commands.readWords, { head, points: 2 })).toEqual({ values: [0x1234, 0] })
+  },
 }
 
 const labels: SimulatedLabels = {
@@ -205,7 +235,18 @@ const variants: Variant[] = profileIds.flatMap((id) =>
 )
 
 describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) => {
-  const joined = () => join({ profile, code, resetAllowed: true, labels }, { frame })
+  const joined = () =>
+    join(
+      {
+        profile,
+        code,
+        resetAllowed: true,
+        bufferMemory: 16,
+        extensions: { modules: [{ unit: 3, points: 16, model: 'Q62DA' }] },
+        labels,
+      },
+      { frame },
+    )
   const lacking = names.filter((name) => lackOf(profile, name) !== undefined)
 
   test.each(names.filter((name) => !lacking.includes(name)))('%s', (name) => {
@@ -230,6 +271,11 @@ describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) =
           asker.endCode(commands.readRandomLabels, { abbreviations: [], labels: [{ name: 'A' }] }),
         writeRandomLabels: () =>
           asker.endCode(commands.writeRandomLabels, { abbreviations: [], labels: [{ name: 'A', data: [0] }] }),
+        readMemory: () => asker.endCode(commands.readMemory, { address: 0, points: 1 }),
+        writeMemory: () => asker.endCode(commands.writeMemory, { address: 0, values: [0] }),
+        readExtendUnit: () => asker.endCode(commands.readExtendUnit, { address: 0, byteCount: 2, moduleNumber: 0 }),
+        writeExtendUnit: () =>
+          asker.endCode(commands.writeExtendUnit, { address: 0, moduleNumber: 0, data: Buffer.of(0, 0) }),
       }
       const endCode = ask[name]?.()
       expect(endCode).toBe(lackOf(profile, name)?.endCode)

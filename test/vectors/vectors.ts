@@ -249,6 +249,15 @@ export function vectorsOfKind<K extends Vector['kind']>(family: Family, kind: K)
   return found
 }
 
+/** A decoded message as the vectors write it: bytes as a list of numbers. */
+export function plain(message: object): unknown {
+  const entries = Object.entries(message).map(([name, value]) => [
+    name,
+    value instanceof Uint8Array ? [...value] : value,
+  ])
+  return Object.fromEntries(entries)
+}
+
 export function bytesOf(vector: Vector): Buffer {
   return Buffer.from(vector.hex, 'hex')
 }

@@ -1,6 +1,7 @@
 import type { LimitRule } from '../limit'
 import type { DeviceForm, Profile } from '../profile'
 import { blockCounts, passwordLimit, randomWriteWeights, writtenBlockWeights } from './limits'
+import { noMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
 import { pointsOf } from './ranges'
 
@@ -92,6 +93,7 @@ export const iqF: Profile = {
       source: 'command list 38.1 has no 0801/0802; measured by others: C059',
     })),
     ...noLabels('command list 38.1 has no label commands'),
+    ...noMemoryCommands('command list 38.1 has no 0613, 1613, 0601 and 1601'),
   ],
   doubtful: [],
   exclusions: [

@@ -1,5 +1,6 @@
 import type { Profile } from '../profile'
 import { iqRLimits } from './limits'
+import { doubtfulMemoryCommands } from './memory-lacks'
 import { pointsOf } from './ranges'
 
 /** Figures of SLMP reference manual SH(NA)-081293 unless said otherwise. */
@@ -20,6 +21,7 @@ export const iqR: Profile = {
   absentDevices: [],
   lacks: [],
   doubtful: [
+    ...doubtfulMemoryCommands,
     {
       command: 'clearError',
       endCode: 0xc059,

@@ -1,6 +1,7 @@
 import type { DeviceName } from '../device'
 import type { Lack, Profile } from '../profile'
 import { qAndLLimits } from './limits'
+import { doubtfulMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
 import { pointsOf } from './ranges'
 
@@ -72,7 +73,7 @@ export const q: Profile = {
   extensions: ['link', 'module'],
   absentDevices: absentOnQAndL,
   lacks: noLabels('SLMP reference manual 5.3: global labels of GX Works2 cannot be accessed'),
-  doubtful: doubtfulOnQAndL,
+  doubtful: [...doubtfulOnQAndL, ...doubtfulMemoryCommands],
   exclusions: [],
   limits: qAndLLimits,
   ranges: {

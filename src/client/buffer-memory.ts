@@ -1,0 +1,76 @@
+// Buffer memory by Memory (0613, 1613) and Extend Unit (0601, 1601): words at addresses of a module.
+import { RequestError } from '../errors'
+import { commands } from '../melsec/commands/commands'
+import { byteAddressOf, type ExtendUnit } from '../melsec/extend-unit'
+import { ownStation, type Route } from '../melsec/route'
+import type { CallOptions } from './call'
+import type { Send } from './control'
+
+/** Words of a buffer memory, 0 to 65535 each. */
+export interface BufferMemory {
+  /**
+   * Reads words from a buffer memory address on, in one request: they are of one moment.
+   * @throws RequestError for more than one request can carry
+   */
+  read(address: number, points: number, options?: CallOptions): Promise<number[]>
+  /** Writes words, in one request. Needs `allowWrites`. */
+  write(address: number, values: readonly number[], options?: CallOptions): Promise<void>
+}
+
+/** The connected module's own. */
+export function memoryOf(send: Send, route: Route): BufferMemory {
+  return {
+    read: async (address, points, options) => {
+      checkOwn(route)
+      return [...(await send(commands.readMemory, { address, points }, options)).values]
+    },
+    write: async (address, values, options) => {
+      checkOwn(route)
+      await send(commands.writeMemory, { address, values }, options)
+    },
+  }
+}
+
+/** A MELSEC-Q module's. */
+export function moduleOf(send: Send, unit: ExtendUnit): BufferMemory {
+  const { moduleNumber } = unit
+  return {
+    read: async (address, points, options) => {
+      const message = { address: byteAddressOf(unit, address), byteCount: 2 * points, moduleNumber }
+      return wordsOf((await send(commands.readExtendUnit, message, options)).data)
+    },
+    write: async (address, values, options) => {
+      const message = { address: byteAddressOf(unit, address), moduleNumber, data: bytesOf(values) }
+      await send(commands.writeExtendUnit, message, options)
+    },
+  }
+}
+
+/** SLMP reference manual 5.4: other stations cannot be given. */
+function checkOwn(route: Route): void {
+  if (route.network === ownStation.network && route.station === ownStation.station) return
+  throw new RequestError(
+    'UNSUPPORTED',
+    'Memory reaches the connected station only: make a client without route for it.',
+    'route',
+  )
+}
+
+function wordsOf(bytes: Uint8Array): number[] {
+  return Array.from({ length: bytes.length / 2 }, (_, i) => (bytes[2 * i] ?? 0) | ((bytes[2 * i + 1] ?? 0) << 8))
+}
+
+/** Low byte first, in ASCII code too. @throws RequestError BAD_VALUE */
+function bytesOf(values: readonly number[]): Uint8Array {
+  if (!Array.isArray(values)) throw new RequestError('BAD_VALUE', 'values must be an array of words.', 'values')
+  const bytes = new Uint8Array(2 * values.length)
+  for (let i = 0; i < values.length; i++) {
+    const word: unknown = values[i]
+    if (typeof word !== 'number' || !Number.isInteger(word) || word < 0 || word > 0xffff) {
+      throw new RequestError('BAD_VALUE', `Word ${i} is ${String(word)}; a word is 0 to 65535.`, 'values')
+    }
+    bytes[2 * i] = word & 0xff
+    bytes[2 * i + 1] = word >> 8
+  }
+  return bytes
+}
