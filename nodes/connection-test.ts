@@ -97,8 +97,8 @@ function connected(connection: Connection | undefined, options: MelsecClientOpti
   return wire(connection.options) === wire(options) ? connection.current : undefined
 }
 
-/** What the PLC sees of a client's options. */
-function wire({ allowWrites, allowControl, gap, format, ...seen }: MelsecClientOptions): string {
+/** What the PLC sees of a client's options. The dialog does not give the password away, so it is not compared. */
+function wire({ allowWrites, allowControl, gap, format, password, ...seen }: MelsecClientOptions): string {
   return JSON.stringify(seen)
 }
 

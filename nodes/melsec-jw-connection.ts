@@ -3,7 +3,7 @@ import type { Node, NodeAPI, NodeDef } from 'node-red'
 import { type ProfileId, profileIds, profiles, typeNames } from '../src/index'
 import { addressCheck } from './address-check'
 import { Connection, connectionOf, setConnection } from './connection'
-import { optionsOf, resolverOf, settingsOf } from './connection-settings'
+import { optionsOf, type Resolve, resolverOf, settingsOf } from './connection-settings'
 import { connectionTest } from './connection-test'
 import type { Migration } from './migration'
 import { readSettings } from './node'
@@ -14,7 +14,8 @@ const migrations: readonly Migration[] = []
 function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): Connection {
   const connection = Connection.of(node, texts, () => {
     const current = readSettings({ ...stored }, migrations, texts)
-    return optionsOf(settingsOf(current, { texts, resolve: resolverOf(RED, node, texts) }), texts)
+    const resolve = resolverOf(RED, node, texts)
+    return { ...optionsOf(settingsOf(current, { texts, resolve }), texts), ...secretsOf(node, resolve) }
   })
   if (connection.failure !== undefined) node.error(connection.failure)
   node.on('close', (done: () => void) => {
@@ -24,6 +25,12 @@ function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): Conne
     })
   })
   return connection
+}
+
+/** What Node-RED keeps apart from the flow: the remote password. Without one the PLC has none. */
+function secretsOf(node: Node, resolve: Resolve): { readonly password?: string } {
+  const { password } = (node.credentials ?? {}) as { readonly password?: unknown }
+  return typeof password === 'string' && password !== '' ? { password: resolve(password) } : {}
 }
 
 /** What the editor knows of the library, so that nothing is written twice. Node-RED wants these names. */
@@ -55,7 +62,7 @@ export = function register(RED: NodeAPI): void {
         running.delete(connection)
       })
     },
-    { settings: editorSettings },
+    { settings: editorSettings, credentials: { password: { type: 'password' } } },
   )
   // A deploy may move the last user away without touching the connection: only then is it known that nobody is left.
   RED.events.on('flows:started', () => {

@@ -1,6 +1,6 @@
 /** The connection node: shared, in the background, through deploys, failures and wrong settings. */
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
-import { type PlcSimulator, profileIds } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator, profileIds } from '../../src/index'
 import { type FlowNode, type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import {
   type CaughtError,
@@ -246,6 +246,35 @@ describe('a PLC', () => {
     await red.deploy([connectionTo(plc, { timeout: '8001' }), read(), catchNode()])
     expect(await red.completed('read')).not.toHaveProperty('error')
     expect(red.pending('catch')).toEqual([])
+  })
+})
+
+describe('a remote password', () => {
+  let locked: PlcSimulator
+
+  beforeAll(async () => {
+    locked = createPlcSimulator({ profile: 'iq-r', password: 'Secret-1' })
+    await locked.listen()
+    locked.write('D100', 43)
+  })
+  afterAll(() => locked.close())
+
+  test('is a credential: it unlocks the PLC and is not in the flow', async () => {
+    await red.deploy([connectionTo(locked, { credentials: { password: 'Secret-1' } }), read(), catchNode()])
+    expect(await value()).toBe(43)
+    expect((await red.http('GET', 'flows')).text).not.toContain('Secret')
+    expect((await red.http('GET', 'credentials/melsec-jw-connection/plc')).json()).toEqual({ has_password: true })
+  })
+
+  test('that is wrong is sent once', async () => {
+    const before = locked.statistics.refusals
+    await red.deploy([connectionTo(locked, { credentials: { password: 'Secret-2' } }), read(), catchNode()])
+    for (let i = 0; i < 3; i++) {
+      const error = await caught()
+      expect(error.message).toContain('C810')
+      expect(JSON.stringify(error)).not.toContain('Secret')
+    }
+    expect(locked.statistics.refusals - before).toBe(1)
   })
 })
 
