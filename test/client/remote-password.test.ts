@@ -252,6 +252,11 @@ describe('a password that cannot be', () => {
     expect(make).not.toThrow(new RegExp(String(password)))
   })
 
+  test('with 1E frames, which have no command for it', () => {
+    const given = { host: 'plc', port: 1, profile: 'iq-f', frame: '1E', password: PASSWORD } as const
+    expect(() => createMelsecClient(given)).toThrow(expect.objectContaining({ code: 'BAD_OPTION', field: 'password' }))
+  })
+
   test('leaves the one before in place', async () => {
     const { client } = await pair()
     expect(() => client.setPassword('x')).toThrow(RequestError)
