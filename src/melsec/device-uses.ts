@@ -42,6 +42,8 @@ function addressField(shape: Shape): string | undefined {
 
 /** Every device address of a message that is about to be encoded. Fields of a wrong type are left to the encoder. */
 export function devicesOf(command: Command, message: Bag): readonly FoundDevice[] {
+  // Plain JavaScript callers pass anything; the encoder says what is wrong with it.
+  if (!isBag(message)) return []
   const { own, lists } = placesOf(command.request)
   const found: FoundDevice[] = []
   if (own !== undefined && isBag(message[own])) found.push(foundIn(command, message, own, undefined, own))

@@ -163,7 +163,11 @@ export class MelsecProtocol<Head> {
         'context',
       )
     }
-    return { shape: commands[command.context as CommandName].request, message: structuredClone(options.context) }
+    const asked: Command = commands[command.context as CommandName]
+    const bits = FORM_BITS[this.#formOf(asked, options.context, {})] | this.#digitBits
+    const writer = writerOf(this.code, bits)
+    encode(asked.request, options.context, writer)
+    return { shape: asked.request, message: decode(asked.request, readerOf(this.code, writer.take(), bits)) }
   }
 
   #decode<C extends Command>(
