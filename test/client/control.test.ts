@@ -1,7 +1,7 @@
 /** Remote control, identification, self test and clear error through sockets, as the simulated CPU sees them. */
 import { describe, expect, test } from '@jest/globals'
 import { commands, type EndCodeError, type PlcSimulator, type ProfileId } from '../../src/index'
-import { failureOf, kinds, links, nextState, until, withLine } from './line'
+import { ample, failureOf, kinds, links, nextState, until, withLine } from './line'
 
 const REMOTE = 0x408b
 const NOT_IN_STOP = 0x4013
@@ -154,7 +154,7 @@ describe.each(links)('reset over %s', (text) => {
       await nextState(client, 'connected')
       expect([plc.cpu.state, plc.cpu.hold]).toEqual(['RUN', undefined])
       expect(resets).toHaveLength(1)
-      expect(await client.readValues(['D0', 'R0'])).toEqual([0, 6])
+      expect(await client.readValues(['D0', 'R0'], ample)).toEqual([0, 6])
     }))
 
   test('a reset that was not received is not taken for a success when the PLC cannot be reached at all', () =>
@@ -210,7 +210,7 @@ describe('RUN', () => {
     }))
 
   test.each(links)('with an unknown outcome is never repeated over %s', (text) =>
-    withLine(text, { client: { timeout: 120 } }, async ({ plc, client }) => {
+    withLine(text, { client: { timeout: 200 } }, async ({ plc, client }) => {
       await client.connect()
       let stops = 0
       plc.on('request', ({ command }) => {
@@ -219,7 +219,7 @@ describe('RUN', () => {
       plc.faults.add({ kind: 'drop', commands: ['remoteStop'], times: 1 })
       expect(await failureOf(client.control.stop())).toMatchObject({ code: 'TIMEOUT', outcome: 'unknown' })
       await nextState(client, 'connected')
-      await client.read('D0')
+      await client.read('D0', ample)
       await until(() => plc.cpu.state === 'STOP')
       expect(stops).toBe(1)
     }),

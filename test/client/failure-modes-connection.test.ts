@@ -10,9 +10,9 @@ import {
   TimeoutError,
 } from '../../src/index'
 import { manualClock } from '../../src/transport/clock'
-import { brief, clientOptions, failureOf, kind, links, nextState, until, withLine } from './line'
+import { ample, brief, clientOptions, failureOf, kind, links, nextState, until, withLine } from './line'
 
-const SHORT = 100
+const SHORT = 150
 const short = { client: { timeout: SHORT } } as const
 const bothTransports = ['tcp 4E binary iq-r', 'udp 4E binary iq-r', 'tcp 3E ascii iq-f', 'udp 3E binary iq-r']
 
@@ -20,7 +20,7 @@ describe.each(links)('4: the PLC goes and comes back, over %s', (text) => {
   test('a power cycle: calls fail, nothing hangs, and the client comes back by itself', () =>
     withLine(text, { plc: { latch: ['D'] }, client: { timeout: 200 } }, async ({ plc, client, transport }) => {
       plc.write('D0', 7)
-      expect(await client.read('D0')).toBe(7)
+      expect(await client.read('D0', ample)).toBe(7)
       for (let cycle = 0; cycle < 3; cycle++) {
         const up = new Promise<void>((resolve) => {
           const stop = plc.on('restart', () => {
@@ -36,7 +36,7 @@ describe.each(links)('4: the PLC goes and comes back, over %s', (text) => {
         const values = await Promise.all([client.read(['D0']), client.read(['D0'])])
         await nextState(client, 'connected')
         expect(['TIMEOUT', 'OFFLINE', 'DISCONNECTED', 7]).toContain(brief(values[0][0] as never))
-        expect(await client.read('D0')).toBe(7)
+        expect(await client.read('D0', ample)).toBe(7)
       }
     }))
 
@@ -46,7 +46,7 @@ describe.each(links)('4: the PLC goes and comes back, over %s', (text) => {
     await first.listen()
     const port = first[line.transport]?.port ?? 0
     const client = createMelsecClient(clientOptions(line, first, { timeout: SHORT, connectTimeout: SHORT }))
-    expect(await client.read('D0')).toBe(0)
+    expect(await client.read('D0', ample)).toBe(0)
     await first.close()
     const states: ConnectionState[] = []
     client.on('state', (state) => states.push(state))
@@ -57,7 +57,7 @@ describe.each(links)('4: the PLC goes and comes back, over %s', (text) => {
     await second.listen()
     second.write('D0', 8)
     await nextState(client, 'connected')
-    expect(await client.read('D0')).toBe(8)
+    expect(await client.read('D0', ample)).toBe(8)
     await client.close()
     await second.close()
   })
@@ -72,7 +72,7 @@ describe.each(links)('4: the PLC goes and comes back, over %s', (text) => {
       await until(() => client.statistics.connects >= 2)
       fault.remove()
       await nextState(client, 'connected')
-      expect(await client.read('D0')).toBe(0)
+      expect(await client.read('D0', ample)).toBe(0)
     }))
 
   test('a reset in the middle of an answer', () =>
@@ -86,7 +86,7 @@ describe.each(links)('4: the PLC goes and comes back, over %s', (text) => {
         if (transport === 'tcp') expect(result?.ok === false && result.error.outcome).toBe('unknown')
       }
       await nextState(client, 'connected')
-      expect(await client.read('D0')).toBe(0)
+      expect(await client.read('D0', ample)).toBe(0)
     }))
 })
 
@@ -132,7 +132,7 @@ describe('5: entries of the PLC', () => {
         expect(await failureOf(second.read('D0'))).toMatchObject({ outcome: 'notSent' })
         expect(second.state.error?.code).toBe('ENTRY_BUSY')
         // The first is not disturbed by the knocking of the second.
-        expect(await client.read('D0')).toBe(0)
+        expect(await client.read('D0', ample)).toBe(0)
         await client.close()
         await nextState(second, 'connected')
         expect(await second.read('D0')).toBe(0)
@@ -147,7 +147,7 @@ describe('5: entries of the PLC', () => {
       expect(error.outcome).toBe('notSent')
       expect(['ENTRY_BUSY', 'DISCONNECTED', 'OFFLINE']).toContain(error.code)
       await nextState(client, 'connected')
-      expect(await client.read('D0')).toBe(0)
+      expect(await client.read('D0', ample)).toBe(0)
       expect(plc.statistics.turnedAway).toBe(3)
     }),
   )
@@ -182,7 +182,7 @@ describe.each(links)('7: writes whose outcome is not known, over %s', (text) => 
     'merge',
   ]
   test.each(faults)('%s: each is applied at most once, and what is reported as done is done', (name) =>
-    withLine(text, { client: { timeout: 60 } }, async ({ plc, client }) => {
+    withLine(text, { client: { timeout: 100 } }, async ({ plc, client }) => {
       const applied = new Map<number, number>()
       plc.on('write', ({ message }) => {
         const [value] = (message?.values ?? []) as number[]

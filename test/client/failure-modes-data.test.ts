@@ -9,7 +9,7 @@ import {
   type ReadValue,
   type RequestOf,
 } from '../../src/index'
-import { brief, failureOf, links, nextState, withLine } from './line'
+import { ample, brief, failureOf, links, nextState, withLine } from './line'
 
 const head = { device: 'D', number: 0 } as const
 const bit = { device: 'M', number: 0 } as const
@@ -163,7 +163,7 @@ describe.each(['tcp 4E binary iq-r', 'udp 3E ascii iq-r', 'tcp 3E ascii q', 'udp
       }))
 
     test('mixed plans under faults: each value is right or has an error', () =>
-      withLine(text, { client: { timeout: 80, gap: 4 } }, async ({ plc, client }) => {
+      withLine(text, { client: { timeout: 150, gap: 4 } }, async ({ plc, client }) => {
         const items = Array.from({ length: 120 }, (_, i) =>
           i % 3 === 0 ? `D${i * 20}:DINT` : i % 3 === 1 ? `M${i * 9}` : `W${(i * 4).toString(16)}`,
         )
@@ -196,7 +196,7 @@ describe.each(['tcp 4E binary iq-r', 'udp 3E ascii iq-r', 'tcp 3E ascii q', 'udp
           await client.read(['SM0'])
           await nextState(client, 'connected')
         }
-        expect((await plan.run()).map(brief)).toEqual(expected)
+        expect((await plan.run(ample)).map(brief)).toEqual(expected)
       }))
   },
 )

@@ -1,9 +1,9 @@
 /** The ways in which PLC drivers fail in the field, each through sockets: first those of the wire. */
 import { describe, expect, test } from '@jest/globals'
-import { EndCodeError, type FaultKind, type PlcSimulator, type ReadValue } from '../../src/index'
-import { brief, failureOf, type Line, links, nextState, until, withLine } from './line'
+import { type CallOptions, EndCodeError, type FaultKind, type PlcSimulator, type ReadValue } from '../../src/index'
+import { ample, brief, failureOf, type Line, links, nextState, until, withLine } from './line'
 
-const SHORT = 100
+const SHORT = 150
 const short = { client: { timeout: SHORT } } as const
 /** Right values, by number of the device. */
 const contentOf = (number: number) => 1000 + number
@@ -13,8 +13,8 @@ function fill(plc: PlcSimulator): void {
 }
 
 /** Reads a device; a failure is allowed, a wrong value is not. */
-async function tryRead({ client }: Pick<Line, 'client'>, number: number): Promise<'read' | string> {
-  const [result] = await client.read([`D${number}`])
+async function tryRead({ client }: Pick<Line, 'client'>, number: number, options?: CallOptions): Promise<string> {
+  const [result] = await client.read([`D${number}`], options)
   if (result?.ok !== true) return result?.error.code ?? 'nothing'
   expect([number, result.value]).toEqual([number, contentOf(number)])
   return 'read'
@@ -42,7 +42,7 @@ describe.each(links)('1: answers that belong to another request, over %s', (text
           await tryRead(line, number)
           await nextState(client, 'connected')
         }
-        expect(await tryRead(line, 301)).toBe('read')
+        expect(await tryRead(line, 301, ample)).toBe('read')
       }
     }),
   )
@@ -60,7 +60,7 @@ describe.each(links)('1: answers that belong to another request, over %s', (text
         }
         plc.faults.clear()
       }
-      expect(await tryRead(line, 50)).toBe('read')
+      expect(await tryRead(line, 50, ample)).toBe('read')
     }))
 
   test('every answer comes three times, and those of other requests in between', () =>
@@ -116,7 +116,7 @@ describe.each(['tcp 3E binary iq-r', 'tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 
   '3: answers in pieces, over %s',
   (text) => {
     const items = ['D1', 'D2:REAL', 'D4[3]']
-    const asked = async (line: Line) => (await line.client.read(items)).map(brief)
+    const asked = async (line: Line, options?: CallOptions) => (await line.client.read(items, options)).map(brief)
 
     async function prepare({ plc, client }: Line): Promise<readonly ReadValue[]> {
       plc.write('D1', -7)
@@ -172,7 +172,7 @@ describe.each(['tcp 3E binary iq-r', 'tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 
             for (const value of values) expect(['TIMEOUT', 'DISCONNECTED', 'BAD_FRAME']).toContain(value)
           }
           await nextState(line.client, 'connected')
-          expect(await asked(line)).toEqual(expected)
+          expect(await asked(line, ample)).toEqual(expected)
         }
       }))
 
@@ -191,7 +191,7 @@ describe.each(['tcp 3E binary iq-r', 'tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 
         await until(() => line.client.state.name === 'connected')
         line.plc.faults.clear()
         await tryAgain(line)
-        expect(await asked(line)).toEqual(expected)
+        expect(await asked(line, ample)).toEqual(expected)
       }),
     )
   },
@@ -225,7 +225,7 @@ describe.each(['udp 3E binary iq-r', 'udp 4E ascii iq-r'])('3: datagrams in piec
         await nextState(client, 'connected')
         await tryRead(line, 8)
         await nextState(client, 'connected')
-        expect([fault, await tryRead(line, 9)]).toEqual([fault, 'read'])
+        expect([fault, await tryRead(line, 9, ample)]).toEqual([fault, 'read'])
       }
     }))
 })

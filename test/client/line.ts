@@ -60,6 +60,8 @@ export interface LineOptions {
 
 /** Ample for loopback on a busy computer: for what is to be answered. */
 const AMPLE = 5000
+/** For a call that must succeed, where the others are to end soon. */
+export const ample = { timeout: AMPLE } as const
 
 export function clientOptions(
   { transport, frame, code, profile }: Kind,

@@ -1,7 +1,7 @@
 /** Monitors through sockets: what is registered, what is read instead, and that no monitor reads another's devices. */
 import { describe, expect, test } from '@jest/globals'
 import { commands, createPlcSimulator, type Monitor, type RequestEvent } from '../../src/index'
-import { brief, clientOptions, kind, type Line, links, nextState, until, withLine } from './line'
+import { ample, brief, clientOptions, kind, type Line, links, nextState, until, withLine } from './line'
 
 const registering = [
   'tcp 4E binary iq-r',
@@ -25,7 +25,7 @@ function watch({ plc }: Pick<Line, 'plc'>): { take(): string[] } {
 }
 
 async function values(monitor: Monitor): Promise<unknown[]> {
-  return (await monitor.read()).map(brief)
+  return (await monitor.read(ample)).map(brief)
 }
 
 describe.each(registering)('registered over %s', (text) => {

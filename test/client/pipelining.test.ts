@@ -1,7 +1,7 @@
 /** Several requests under way at once: 4E over UDP, where every answer has its number. */
 import { describe, expect, test } from '@jest/globals'
 import type { PlcError } from '../../src/index'
-import { brief, failureOf, nextState, until, withLine } from './line'
+import { ample, brief, failureOf, nextState, until, withLine } from './line'
 
 const texts = ['udp 4E binary iq-r', 'udp 4E ascii q']
 
@@ -54,7 +54,7 @@ describe.each(texts)('%s', (text) => {
         await client.read(['SM0'])
       }
       await nextState(client, 'connected')
-      expect(await client.read('D7')).toBe(7)
+      expect(await client.read('D7', ample)).toBe(7)
     }))
 
   test('writes under way at once are each applied once, in any order', () =>

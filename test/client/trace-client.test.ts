@@ -1,7 +1,7 @@
 /** The trace of a client: frames as they went through real sockets, in words. */
 import { describe, expect, jest, test } from '@jest/globals'
 import type { TraceEntry } from '../../src/index'
-import { failureOf, kinds, nextState, withLine } from './line'
+import { ample, failureOf, kinds, nextState, withLine } from './line'
 
 function collect(client: { on(event: 'trace', listener: (entry: TraceEntry) => void): () => void }) {
   const entries: TraceEntry[] = []
@@ -125,7 +125,7 @@ test('over UDP a piece of a datagram is not put before the next one', () =>
     plc.faults.add({ kind: 'cut', at: 9, times: 1 })
     await failureOf(client.read('D0'))
     await nextState(client, 'connected')
-    await client.read('D0')
+    await client.read('D0', ample)
     expect(entries.at(-1)?.frames).toHaveLength(1)
     expect(entries.at(-1)?.text).toContain('1234')
   }))
