@@ -79,6 +79,16 @@ describe.each(links)('1: answers that belong to another request, over %s', (text
       else expect(new Set(outcomes)).toEqual(new Set(['read']))
     }))
 
+  test('the answer of another station is not believed', () =>
+    withLine(text, {}, async ({ plc, client }) => {
+      await client.connect()
+      for (const fault of [{ kind: 'wrongRoute' }, { kind: 'wrongRoute', network: 0, station: 1 }] as const) {
+        await nextState(client, 'connected')
+        plc.faults.add({ ...fault, times: 1 })
+        expect(await failureOf(client.read('D0'))).toMatchObject({ code: 'ECHO_MISMATCH', outcome: 'unknown' })
+      }
+    }))
+
   test('a write whose answer comes late is not taken as done, and its answer not for the next one', () =>
     withLine(text, short, async ({ plc, client }) => {
       await client.connect()

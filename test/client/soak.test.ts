@@ -27,16 +27,23 @@ function randomOf(seed: number): () => number {
   }
 }
 
-const faults: readonly Fault[] = [
-  { kind: 'silence' },
-  { kind: 'drop' },
-  { kind: 'delay', ms: 10 },
-  { kind: 'delay', ms: 200 },
+/** Answers that could be taken for another request's. */
+const misleading: readonly Fault[] = [
   { kind: 'late' },
   { kind: 'late', until: 'answer' },
   { kind: 'duplicate' },
   { kind: 'duplicate', copies: 3 },
   { kind: 'merge' },
+]
+
+const faults: readonly Fault[] = [
+  ...misleading,
+  ...misleading,
+  ...misleading,
+  { kind: 'silence' },
+  { kind: 'drop' },
+  { kind: 'delay', ms: 10 },
+  { kind: 'delay', ms: 200 },
   { kind: 'split', at: 7 },
   { kind: 'split', at: 12 },
   { kind: 'dribble', size: 3 },
@@ -68,7 +75,7 @@ class Plant {
       this.#set(plc)
       if (plc.faults.active.length > 2) plc.faults.clear()
       const fault = faults[Math.floor(random() * faults.length)]
-      if (random() < 0.06 && fault !== undefined) plc.faults.add({ ...fault, times: 1 })
+      if (random() < 0.1 && fault !== undefined) plc.faults.add({ ...fault, times: 1 })
       if (random() < 0.002) plc.restart(5)
     })
     plc.on('write', ({ message }) => {
