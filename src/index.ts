@@ -1,3 +1,4 @@
+/// <reference types="node" preserve="true" />
 // The public names. No code.
 
 export type { BufferMemory } from './client/buffer-memory'

@@ -93,7 +93,7 @@ createMelsecClient({ host: 5, port: 5007 })
     'has types that resolve under %s (%s, %s)',
     async (moduleResolution, module, file) => {
       writeFileSync(join(project, file), program)
-      const options = ['--noEmit', '--strict', '--target', 'es2022', '--types', 'node', '--module', module]
+      const options = ['--noEmit', '--strict', '--target', 'es2022', '--module', module]
       const args = [tsc, ...options, '--moduleResolution', moduleResolution, file]
       await expect(run(process.execPath, args, { cwd: project })).resolves.toMatchObject({ stdout: '' })
     },

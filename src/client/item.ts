@@ -148,6 +148,12 @@ interface Parts {
 }
 
 function splitText(text: string, fail: Fail): Parts {
+  if (/^\s*label:/i.test(text)) {
+    fail(
+      'UNSUPPORTED',
+      'labels are read by read() and written by write() of the client, not by plans, monitors or nodes.',
+    )
+  }
   const [, device = '', type] = /^([^:]*)(?::(.*))?$/s.exec(text) ?? []
   const [, counted = '', digits] = /^(.*?)(?:\[\s*(\d+)\s*\])?$/s.exec(type ?? device) ?? []
   const area = type === undefined ? counted : device
@@ -157,6 +163,7 @@ function splitText(text: string, fail: Fail): Parts {
   if (area.includes(',')) fail('BAD_ADDRESS', commaHint(area))
   const [first = '', last, more] = area.split('..')
   if (more !== undefined) fail('BAD_ADDRESS', 'a range has two ends, e.g. M0..M15.')
+  if (last?.trim() === '') fail('BAD_ADDRESS', 'the end of the range is missing, e.g. M0..M15.')
   return {
     first,
     ...(last === undefined ? {} : { last }),

@@ -307,6 +307,22 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
     source: BACKGROUND,
   },
   {
+    code: 0x40c0,
+    meaning: [
+      'There is no such label, or it may not be accessed from outside.',
+      '指定されたラベルがないか、外部機器からのアクセスが許可されていません。',
+      '没有指定的标签，或不允许从外部设备访问。',
+      '沒有指定的標籤，或不允許從外部裝置存取。',
+    ],
+    remedy: [
+      'Check the name of the label, and tick "Access from External Device" in its row in GX Works3.',
+      'ラベル名を確認し、GX Works3で「外部機器からのアクセス」を有効にしてください。',
+      '请确认标签名，并在GX Works3中勾选“外部设备访问”。',
+      '請確認標籤名稱，並在GX Works3中勾選「外部裝置存取」。',
+    ],
+    source: BACKGROUND,
+  },
+  {
     code: 0x408b,
     meaning: [
       'The remote request cannot be carried out: it is not permitted, or another device holds the CPU.',
