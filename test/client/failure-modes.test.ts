@@ -1,6 +1,14 @@
 /** The ways in which PLC drivers fail in the field, each through sockets: first those of the wire. */
 import { describe, expect, test } from '@jest/globals'
-import { type CallOptions, EndCodeError, type FaultKind, type PlcSimulator, type ReadValue } from '../../src/index'
+import {
+  type CallOptions,
+  createMelsecClient,
+  EndCodeError,
+  type FaultKind,
+  type PlcSimulator,
+  type ReadValue,
+} from '../../src/index'
+import { rawServer } from '../transport/recorder'
 import { ample, brief, failureOf, type Line, links, nextState, until, withLine } from './line'
 
 const SHORT = 150
@@ -206,6 +214,47 @@ describe.each(['tcp 3E binary iq-r', 'tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 
     )
   },
 )
+
+describe('3: lengths that cannot be, over TCP', () => {
+  const answers: readonly (readonly [what: string, frame: '3E' | '4E', hex: string])[] = [
+    ['no byte behind the head', '3E', 'd00000ffff03000000'],
+    ['half an end code', '3E', 'd00000ffff0300010000'],
+    ['65535 bytes that do not come', '3E', 'd00000ffff0300ffff0000e903'],
+    ['one byte too few', '3E', 'd00000ffff0300030000 00e9'],
+    ['one byte too many', '3E', 'd00000ffff030005000000e90300'],
+    ['the length of another answer', '3E', 'd00000ffff030006000000e9030000'],
+    ['no byte behind the head', '4E', 'd400SSSS000000ffff03000000'],
+    ['65535 bytes that do not come', '4E', 'd400SSSS000000ffff0300ffff0000e903'],
+    ['one byte too many', '4E', 'd400SSSS000000ffff030005000000e90300'],
+    ['the head alone', '4E', 'd400SSSS0000'],
+    ['the subheader of a request', '4E', '5000SSSS000000ffff030004000000e903'],
+    ['another frame', '4E', 'd00000ffff030004000000e903'],
+  ]
+  test.each(answers)('%s (%s)', async (_what, frame, hex) => {
+    let requests = 0
+    const plc = await rawServer((socket) => {
+      socket.on('data', (request) => {
+        const serial = request.subarray(2, 4).toString('hex')
+        // The first request of a connection only asks who is there.
+        requests++
+        const head = frame === '3E' ? 'd00000ffff0300' : `d400${serial}000000ffff0300`
+        const name = Buffer.from('R08CPU          ').toString('hex')
+        const good = `${head}14000000${name}0148`
+        socket.write(Buffer.from(requests === 1 ? good : hex.replaceAll(' ', '').replace('SSSS', serial), 'hex'))
+      })
+    })
+    const client = createMelsecClient({ host: '127.0.0.1', port: plc.port, profile: 'iq-r', frame, timeout: SHORT })
+    try {
+      await client.connect(ample)
+      const error = await failureOf(client.read('D0'))
+      expect(['TIMEOUT', 'TRUNCATED', 'TRAILING', 'BAD_FRAME', 'DISCONNECTED']).toContain(error.code)
+      expect(error.outcome).toBe('unknown')
+    } finally {
+      await client.close()
+      await plc.close()
+    }
+  })
+})
 
 /** One request whose failure may still be caused by what came before. */
 async function tryAgain({ client }: Line): Promise<void> {

@@ -9,7 +9,10 @@ import {
   type MelsecClientOptions,
   PlcError,
   RequestError,
+  type UnsolicitedFrame,
 } from '../../src/index'
+import { frame3e } from '../../src/melsec/frame-3e'
+import { ownStation } from '../../src/melsec/route'
 import { realClock } from '../../src/transport/clock'
 import { brief, clientOptions, failureOf, kind, links, nextState, until, withLine } from './line'
 
@@ -362,6 +365,47 @@ describe('events', () => {
     expect(warned).toHaveBeenCalledWith(expect.stringContaining('a mistake of the program'), expect.anything())
     warned.mockRestore()
   })
+
+  test.each(['3E', '4E'] as const)(
+    'of a %s frame that the PLC sends unasked: told, and no answer to anything',
+    (frame) =>
+      withLine('tcp 4E binary iq-r', {}, async ({ plc, another }) => {
+        plc.write('D0', 5)
+        const open = plc.connect()
+        let inject: (bytes: Buffer) => void = () => {}
+        const client = another({
+          frame,
+          openTransport: () => {
+            const transport = open()
+            return {
+              kind: transport.kind,
+              description: transport.description,
+              open: (handlers) => {
+                inject = (bytes) => handlers.received(bytes)
+                transport.open(handlers)
+              },
+              send: (bytes) => transport.send(bytes),
+              renew: () => transport.renew(),
+              close: () => transport.close(),
+            }
+          },
+        })
+        await client.connect()
+        const told: UnsolicitedFrame[] = []
+        const stop = client.on('unsolicited', (unsolicited) => told.push(unsolicited))
+        const body = Buffer.from('012100000102', 'hex')
+        const onDemand = frame3e(frame, 'binary').request.write({ route: ownStation, timer: 0 }, 0, body)
+        const reading = client.read('D0')
+        inject(onDemand)
+        expect(await reading).toBe(5)
+        inject(Buffer.concat([onDemand, onDemand]))
+        expect(told).toEqual(Array(3).fill({ route: ownStation, body }))
+        stop()
+        inject(onDemand)
+        expect(told).toHaveLength(3)
+        expect(client.statistics).toMatchObject({ connects: 1, protocolErrors: 0, stale: 0 })
+      }),
+  )
 
   test('a listener may end itself and close the client', () =>
     withLine('tcp 4E binary iq-r', {}, async ({ client }) => {
