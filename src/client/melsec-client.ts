@@ -2,7 +2,6 @@
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import type { Exchange } from '../link/link'
-import { namedAsFx5 } from '../melsec/a-compatible-rules'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import { extendUnitOf, type ModulePlace } from '../melsec/extend-unit'
@@ -17,31 +16,18 @@ import { Connection, type ConnectionState } from './connection'
 import { type Control, controlOf, type Identity, identify, type Send, selfTest } from './control'
 import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
-import { checkBooleans, checkRequest, isItem, isList, listOf, namesOf } from './given'
-import { isLabelItem, type MixedAccess, readWithLabels, writeWithLabels } from './label-in-items'
+import { checkRequest, isItem, isList, namesOf } from './given'
+import { ItemAccess } from './item-access'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
-import { ItemMonitor, type Monitor, type MonitorCall, Registration } from './monitor'
+import { type Monitor, type MonitorCall, Registration } from './monitor'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import { protocolOf, transportOf } from './parts'
-import {
-  explainItem,
-  type Item,
-  type ItemExplanation,
-  type ParsedItem,
-  parseItem,
-  planRead,
-  planWrite,
-  type ReadResult,
-  type RefusedItem,
-  type WriteOptions,
-  type WriteResult,
-} from './plan'
+import type { Item, ItemExplanation, ReadResult, WriteOptions, WriteResult } from './plan'
 import { RemotePassword } from './remote-password'
 import { byName, plainValue } from './results'
 import type { Statistics } from './statistics'
 import { Tracer } from './trace'
-import { refuseAmbiguousXy } from './xy-notation'
 
 export type {
   ClientEvents,
@@ -58,9 +44,6 @@ const LOCK_TIME = 500
 
 const EVENTS = { state: true, trace: true, unsolicited: true } as const satisfies Record<keyof ClientEvents, true>
 
-/** Plans of `read` that are kept. A program that reads ever new lists must not fill the memory with them. */
-const PREPARED_PLANS = 500
-
 /**
  * A client of one MELSEC PLC over SLMP (3E or 4E frame). It connects at the first call, stays connected in the
  * background, and reconnects by itself until `close()`.
@@ -76,12 +59,9 @@ export class MelsecClient {
   readonly #connection: Connection<Head3e>
   readonly #listeners = new Listeners<ClientEvents>(EVENTS, () => this.#traceIfWanted())
   readonly #tracer: Tracer
-  readonly #prepared = new Map<string, ReadPlan>()
   readonly #registration: Registration
-  /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
-  #monitored = false
   readonly #send: Send
-  readonly #mixed: MixedAccess
+  readonly #items: ItemAccess
   readonly #password: RemotePassword
   /** As given, without the password. */
   readonly options: Omit<MelsecClientOptions, 'password'>
@@ -140,13 +120,14 @@ export class MelsecClient {
       encoding: settings.format.encoding,
     })
     this.labels = labels
-    this.#mixed = {
+    this.#items = new ItemAccess({
+      settings,
+      protocol: this.#protocol,
       labels,
-      read: (items, call) => this.#prepare(items).run(call),
-      write: (entries, call) => this.planWrite(entries, call).run(call),
-      deadline: (call) => new Deadline(settings.clock, call, settings.timeout),
-      time: () => settings.clock.time(),
-    }
+      registration: this.#registration,
+      call: (call) => this.#call(call),
+      permit: (effect, title) => this.#permit(effect, title),
+    })
     this.memory = memoryOf(this.#send, settings.route)
   }
 
@@ -220,10 +201,10 @@ export class MelsecClient {
     items: Item | readonly Item[] | Readonly<Record<string, Item>>,
     options?: CallOptions,
   ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
-    if (isItem(items)) return plainValue((await this.#prepare([items]).run(options))[0])
-    if (isList(items)) return this.#prepare(items).run(options)
+    if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
+    if (isList(items)) return this.#items.prepare(items).run(options)
     const names = namesOf(items, ITEMS)
-    return byName(names, await this.#prepare(names.map((name) => items[name] as Item)).run(options))
+    return byName(names, await this.#items.prepare(names.map((name) => items[name] as Item)).run(options))
   }
 
   /**
@@ -240,24 +221,10 @@ export class MelsecClient {
     options?: CallOptions,
   ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
   async readValues(items: readonly Item[] | Readonly<Record<string, Item>>, options?: CallOptions): Promise<unknown> {
-    if (isList(items)) return (await this.#prepare(items).run(options)).map(plainValue)
+    if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
     const names = namesOf(items, ITEMS)
-    const results = await this.#prepare(names.map((name) => items[name] as Item)).run(options)
+    const results = await this.#items.prepare(names.map((name) => items[name] as Item)).run(options)
     return byName(names, results.map(plainValue))
-  }
-
-  /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
-  #prepare(items: readonly Item[]): Pick<ReadPlan, 'run'> {
-    if (items.some(isLabelItem)) return { run: (options) => readWithLabels(items, options, this.#mixed) }
-    if (!items.every((item) => typeof item === 'string')) return this.plan(items)
-    // Not joined: whatever stood between two texts could also stand in one.
-    const key = JSON.stringify(items)
-    const known = this.#prepared.get(key)
-    if (known !== undefined) return known
-    const plan = this.plan(items)
-    if (this.#prepared.size >= PREPARED_PLANS) this.#prepared.clear()
-    this.#prepared.set(key, plan)
-    return plan
   }
 
   /**
@@ -265,20 +232,7 @@ export class MelsecClient {
    * Items that cannot be read keep their error as their result.
    */
   plan(items: readonly Item[]): ReadPlan {
-    const plan = planRead(
-      listOf(items, 'items').map((item) => this.#parse(item)),
-      this.#protocol,
-      this.#planOptions,
-    )
-    return {
-      run: async (options) => plan.run(this.#call(options).send, () => this.#settings.clock.time()),
-      describe: () => plan.describe(),
-      toString: () => plan.toString(),
-    }
-  }
-
-  get #planOptions(): { readonly gap: number; readonly xyRadix: 8 | 16 } {
-    return { gap: this.#settings.gap, xyRadix: this.#settings.xyRadix }
+    return this.#items.plan(items)
   }
 
   /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
@@ -294,27 +248,9 @@ export class MelsecClient {
     }
   }
 
-  #parse(item: Item): ParsedItem | RefusedItem {
-    try {
-      const { xyRadix, xyUnknown, format } = this.#settings
-      const parsed = this.#renamed(parseItem(item, { xyRadix, format }))
-      if (xyUnknown) refuseAmbiguousXy(item, parsed)
-      return parsed
-    } catch (error) {
-      if (!(error instanceof RequestError)) throw error
-      return { text: typeof item === 'string' ? item : String(item?.address), error }
-    }
-  }
-
-  #renamed(item: ParsedItem): ParsedItem {
-    return this.#settings.profile.id === 'fx3' ? { ...item, address: namedAsFx5(item.address) } : item
-  }
-
   /** What reading the item will touch, for people and editors. @throws RequestError when it is not an item. */
   explain(item: Item): ItemExplanation {
-    const parsed = this.#parse(item)
-    if ('error' in parsed) throw parsed.error
-    return explainItem(parsed, this.#protocol, { xyRadix: this.#settings.xyRadix })
+    return this.#items.explain(item)
   }
 
   /**
@@ -334,49 +270,28 @@ export class MelsecClient {
     third?: CallOptions & WriteOptions,
   ): Promise<unknown> {
     if (isItem(target)) {
-      const [result] = await this.#write([{ item: target, value: second as ReadValue }], third)
+      const [result] = await this.#items.write([{ item: target, value: second as ReadValue }], third)
       if (result?.ok === false) throw result.error
       return undefined
     }
     const options = second as (CallOptions & WriteOptions) | undefined
-    if (isList(target)) return this.#write(target, options)
+    if (isList(target)) return this.#items.write(target, options)
     const names = namesOf(
       target,
       'Values to write are an item and its value, a list of entries, or an object by address',
     )
     return byName(
       names,
-      await this.#write(
+      await this.#items.write(
         names.map((item) => ({ item, value: target[item] as ReadValue })),
         options,
       ),
     )
   }
 
-  async #write(
-    entries: readonly WriteEntry[],
-    options: (CallOptions & WriteOptions) | undefined,
-  ): Promise<WriteResult[]> {
-    const hasLabels = listOf(entries, 'entries').some((entry) => isLabelItem(entry?.item))
-    if (hasLabels) return writeWithLabels(entries, options ?? {}, this.#mixed)
-    return this.planWrite(entries, options).run(options)
-  }
-
   /** The requests that write these values: to look at before they are run. */
   planWrite(entries: readonly WriteEntry[], options: WriteOptions = {}): WritePlan {
-    checkBooleans(options, ['readModifyWrite', 'allOrNothing'])
-    // An entry that is none is an item that is none.
-    const parsed = listOf(entries, 'entries').map((entry) => ({ item: this.#parse(entry?.item), value: entry?.value }))
-    const plan = planWrite(parsed, this.#protocol, { ...options, xyRadix: this.#settings.xyRadix })
-    return {
-      run: async (call) => {
-        // Before anything is sent, also the reading of a word that a bit is changed in.
-        this.#permit('write', 'Writing')
-        return plan.run(this.#call(call).send)
-      },
-      describe: () => plan.describe(),
-      toString: () => plan.toString(),
-    }
+    return this.#items.planWrite(entries, options)
   }
 
   /**
@@ -384,30 +299,7 @@ export class MelsecClient {
    * Where the profile has no monitor commands, Read Random is used instead and `note` says so.
    */
   monitor(items: readonly Item[]): Monitor {
-    const monitor = new ItemMonitor(
-      listOf(items, 'items').map((item) => this.#parse(item)),
-      this.#protocol,
-      {
-        ...this.#planOptions,
-        call: (options) => this.#call(options),
-        time: () => this.#settings.clock.time(),
-        registration: this.#registration,
-        unusable: this.#monitorUnusable(),
-      },
-    )
-    this.#monitored ||= monitor.mode === 'monitor'
-    return monitor
-  }
-
-  /** The PLC registers per connection, and over UDP that is the local port. */
-  #monitorUnusable(): string | undefined {
-    const { transport, frame } = this.#settings
-    if (transport !== 'udp') return undefined
-    if (frame === '3E') {
-      return 'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the registration again. The 4E frame or TCP would.'
-    }
-    if (!this.#monitored) return undefined
-    return 'Another monitor of this client is registered. Over UDP a registration may arrive twice or late, and take the place of this one without anybody noticing. Over TCP they take turns.'
+    return this.#items.monitor(items)
   }
 
   /**
