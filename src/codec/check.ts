@@ -59,8 +59,9 @@ function last(width: number): number {
 function integerProblem(field: IntegerField): string | undefined {
   const problem = boundsProblem(field, WIDTH[field.kind])
   if (problem !== undefined) return problem
-  const { min = 0, max = last(WIDTH[field.kind]), oneOf } = field
-  const allowed = (number: number) => number >= min && number <= max && oneOf?.includes(number) !== false
+  const { min = 0, max = last(WIDTH[field.kind]), oneOf, multipleOf = 1 } = field
+  const allowed = (number: number) =>
+    number >= min && number <= max && number % multipleOf === 0 && oneOf?.includes(number) !== false
   if (oneOf?.every(allowed) === false) return 'has numbers in oneOf that its range excludes'
   if (field.default !== undefined && !allowed(field.default))
     return `has the default ${field.default}, which it refuses`
@@ -68,14 +69,25 @@ function integerProblem(field: IntegerField): string | undefined {
 }
 
 /** `zeroMeans` stands for one number only: 0 itself must not be possible, and nothing else may be too wide. */
-function boundsProblem({ min = 0, max, zeroMeans }: IntegerField | CountField, width: number): string | undefined {
+function boundsProblem(field: IntegerField | CountField, width: number): string | undefined {
+  const { min = 0, max, zeroMeans } = field
   const highest = max ?? last(width)
   if (min < 0 || min > highest) return `has the range ${min} to ${highest}`
+  const uneven = multipleProblem(field, highest)
+  if (uneven !== undefined) return uneven
   if (zeroMeans !== undefined && (min === 0 || zeroMeans < min || zeroMeans > highest)) {
     return `writes ${zeroMeans} as 0, which is possible itself or the other is not`
   }
   const widest = zeroMeans === highest ? highest - 1 : highest
   return widest > last(width) ? `goes up to ${highest}, which its width cannot hold` : undefined
+}
+
+/** Bounds that are no multiples themselves would say what cannot be. */
+function multipleProblem({ min = 0, max, zeroMeans, multipleOf }: IntegerField | CountField, highest: number) {
+  if (multipleOf === undefined) return undefined
+  if (!Number.isInteger(multipleOf) || multipleOf < 2 || multipleOf > highest) return `is a multiple of ${multipleOf}`
+  const odd = [min, max, zeroMeans].find((bound) => bound !== undefined && bound % multipleOf !== 0)
+  return odd === undefined ? undefined : `has the bound ${odd}, which is no multiple of ${multipleOf}`
 }
 
 /** A derived count and what it counts must name each other; that the count comes first is seen at what it counts. */

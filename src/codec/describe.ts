@@ -6,6 +6,12 @@ export interface FieldDescription {
   readonly kind: string
   /** e.g. `1..960` */
   readonly range?: string
+  /** Only multiples of this number. */
+  readonly multipleOf?: number
+  /** The only numbers that may stand here. */
+  readonly oneOf?: readonly number[]
+  /** What is written when a message leaves the field out. */
+  readonly default?: number
   readonly count?: Count
   readonly value?: number
   readonly of?: string
@@ -19,6 +25,7 @@ export function describe(shape: Shape): FieldDescription[] {
     name,
     kind: field.kind === 'value' ? field.codec.name : field.kind,
     ...rangeOf(field),
+    ...rulesOf(field),
     ...('count' in field ? { count: field.count } : {}),
     ...(field.kind === 'fixed' ? { value: field.value } : {}),
     ...('of' in field ? { of: field.of } : {}),
@@ -31,4 +38,12 @@ function rangeOf(field: Field): { range?: string } {
   if (!('min' in field) && !('max' in field)) return {}
   const { min, max } = field as { min?: number; max?: number }
   return { range: `${min ?? 0}..${max ?? ''}` }
+}
+
+function rulesOf(field: Field): Pick<FieldDescription, 'multipleOf' | 'oneOf' | 'default'> {
+  return {
+    ...('multipleOf' in field && field.multipleOf !== undefined ? { multipleOf: field.multipleOf } : {}),
+    ...('oneOf' in field && field.oneOf !== undefined ? { oneOf: field.oneOf } : {}),
+    ...('default' in field && field.default !== undefined ? { default: field.default } : {}),
+  }
 }

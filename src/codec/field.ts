@@ -16,6 +16,8 @@ interface Bounded {
   readonly max?: number
   /** The value that is written as 0 because the field is too narrow for it (1E: 256 points as 00H). */
   readonly zeroMeans?: number
+  /** Only multiples of this number: bytes of whole words (Extend Unit). */
+  readonly multipleOf?: number
 }
 
 export interface IntegerField extends Documented, Bounded {
@@ -131,6 +133,7 @@ type IntegerOptions = {
   min?: number
   max?: number
   zeroMeans?: number
+  multipleOf?: number
   default?: number
   oneOf?: readonly number[]
 }

@@ -154,8 +154,13 @@ function integerToWrite(field: IntegerField, given: unknown): number {
   if (typeof number !== 'number' || !Number.isInteger(number)) bad(`must be a whole number, is ${show(given)}`)
   const [min, max] = boundsOf(field)
   if (number < min || number > max) bad(`is ${number}, must be ${min} to ${max}`)
+  if (!isMultiple(field, number)) bad(`is ${number}, must be a multiple of ${field.multipleOf}`)
   if (field.oneOf?.includes(number) === false) bad(`is ${number}, must be one of ${field.oneOf.join(', ')}`)
   return number === field.zeroMeans ? 0 : number
+}
+
+function isMultiple({ multipleOf }: { readonly multipleOf?: number }, number: number): boolean {
+  return multipleOf === undefined || number % multipleOf === 0
 }
 
 function boundsOf(field: IntegerField): readonly [min: number, max: number] {
@@ -166,6 +171,9 @@ function countToWrite(field: Extract<Field, { kind: 'count' }>, length: number):
   const max = field.max ?? 2 ** (8 * field.width) - 1
   if (length < (field.min ?? 0) || length > max) {
     bad(`${field.of} has ${length} element(s), must have ${field.min ?? 0} to ${max}`)
+  }
+  if (!isMultiple(field, length)) {
+    bad(`${field.of} has ${length} element(s), must have a multiple of ${field.multipleOf}`)
   }
   return length === field.zeroMeans ? 0 : length
 }
@@ -315,6 +323,7 @@ function readInteger(field: IntegerField, reader: Reader): number {
   const number = read === 0 && field.zeroMeans !== undefined ? field.zeroMeans : read
   const [min, max] = boundsOf(field)
   if (number < min || number > max) reader.fail('BAD_FIELD', `${number} is not within ${min} to ${max}`)
+  if (!isMultiple(field, number)) reader.fail('BAD_FIELD', `${number} is no multiple of ${field.multipleOf}`)
   if (field.oneOf?.includes(number) === false)
     reader.fail('BAD_FIELD', `${number} is not one of ${field.oneOf.join(', ')}`)
   return number
@@ -325,6 +334,9 @@ function readCount(field: Extract<Field, { kind: 'count' }>, reader: Reader): nu
   const count = read === 0 && field.zeroMeans !== undefined ? field.zeroMeans : read
   if (count < (field.min ?? 0) || count > (field.max ?? count)) {
     reader.fail('BAD_FIELD', `${count} ${field.of}, must be ${field.min ?? 0} to ${field.max ?? 'the width'}`)
+  }
+  if (!isMultiple(field, count)) {
+    reader.fail('BAD_FIELD', `${count} ${field.of}, must be a multiple of ${field.multipleOf}`)
   }
   return count
 }

@@ -3,7 +3,7 @@ import { RequestError } from '../errors'
 import { byteAddressOf, type ExtendUnit, extendUnitOf } from '../melsec/extend-unit'
 import type { Profile } from '../melsec/profile'
 import type { DeviceMemory, ExtensionMemory } from './memory'
-import { furtherRefusals, Refusal, requestErrors } from './refusal'
+import { furtherRefusals, Refusal } from './refusal'
 
 /** The connected module's own buffer memory. */
 export class OwnBuffer {
@@ -80,7 +80,6 @@ export class ExtendUnits {
     }
     const offset = address - byteAddressOf(found, 0)
     if (offset < 0) throw new Refusal(furtherRefusals[this.#profile.id].bufferMemory, 'in front of the buffer memory')
-    if (offset % 2 !== 0 || byteCount % 2 !== 0) throw new Refusal(requestErrors.content, 'Extend Unit: no whole words')
     const head = { device: 'G', number: offset / 2, extension: { kind: 'module', unit: found.unit } } as const
     return { head, points: byteCount / 2 }
   }

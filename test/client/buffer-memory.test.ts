@@ -3,6 +3,7 @@ import { afterEach, describe, expect, test } from '@jest/globals'
 import { createMelsecClient, type MelsecClient } from '../../src/client/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/options'
 import { PlcError } from '../../src/errors'
+import { commands } from '../../src/melsec/commands/commands'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
 
 const ended: (() => Promise<void>)[] = []
@@ -73,6 +74,19 @@ describe('refused before anything is sent', () => {
     ['a value that is no word', (client) => client.memory.write(0, [-1])],
     ['too many words of a module', (client) => client.module('Q62DA', { startIo: 0 }).read(0, 961)],
     ['half a word of a module', (client) => client.module('Q62DA', { startIo: 0 }).read(0, 1.25)],
+    [
+      'an odd number of bytes',
+      (client) => client.request(commands.readExtendUnit, { address: 0x1008, byteCount: 3, moduleNumber: 3 }),
+    ],
+    [
+      'an odd number of data',
+      (client) =>
+        client.request(commands.writeExtendUnit, { address: 0x1008, moduleNumber: 3, data: new Uint8Array([1, 2, 3]) }),
+    ],
+    [
+      'an address within a word',
+      (client) => client.request(commands.readExtendUnit, { address: 0x1009, byteCount: 2, moduleNumber: 3 }),
+    ],
     ['no word of a module', (client) => client.module('Q62DA', { startIo: 0 }).write(0, [])],
     ['a word too large for a module', (client) => client.module('Q62DA', { startIo: 0 }).write(0, [65536])],
     ['a hole', (client) => client.module('Q62DA', { startIo: 0 }).write(0, new Array<number>(1))],

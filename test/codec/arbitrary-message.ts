@@ -75,9 +75,11 @@ function valueFor(
     case 'u8':
     case 'u16':
     case 'u32': {
-      const { min = 0, max = MOST, oneOf } = field
+      const { min = 0, max = MOST, oneOf, multipleOf = 1 } = field
       return generate(() =>
-        oneOf === undefined ? fc.integer({ min, max: Math.min(max, MOST) }) : fc.constantFrom(...oneOf),
+        oneOf === undefined
+          ? fc.integer({ min, max: Math.min(max, MOST) }).map((made) => made - (made % multipleOf))
+          : fc.constantFrom(...oneOf),
       )
     }
     case 'value': {
@@ -127,5 +129,6 @@ function sizeOf(
   if (typeof found === 'number') return found
   if (found !== undefined) return (found as ArrayLike<unknown>).length
   if (derived?.kind !== 'count') throw new Error(`nothing tells the count of ${name}`)
-  return generate(() => fc.integer({ min: derived.min ?? 0, max: MOST }))
+  const made = generate(() => fc.integer({ min: derived.min ?? 0, max: MOST }))
+  return made - (made % (derived.multipleOf ?? 1))
 }

@@ -77,6 +77,22 @@ describe('declare', () => {
       {},
       'a has numbers in oneOf that its range excludes',
     ],
+    ['a default that is no multiple', { a: u8({ multipleOf: 2, default: 3 }) }, {}, 'a has the default 3'],
+    [
+      'a bound that is no multiple',
+      { a: u8({ multipleOf: 2, min: 1 }) },
+      {},
+      'a has the bound 1, which is no multiple',
+    ],
+    [
+      'a count whose bound is no multiple',
+      { n: countOf('a', 1, { multipleOf: 4, max: 6 }), a: bytes('n') },
+      {},
+      'n has the bound 6, which is no multiple of 4',
+    ],
+    ['multiples of a fraction', { a: u8({ multipleOf: 1.5 }) }, {}, 'a is a multiple of 1.5'],
+    ['multiples of 0', { a: u8({ multipleOf: 0 }) }, {}, 'a is a multiple of 0'],
+    ['a list with what is no multiple', { a: u8({ multipleOf: 2, oneOf: [2, 3] }) }, {}, 'a has numbers in oneOf'],
     ['a fixed number that is too wide', { a: fixed(256, 1) }, {}, 'a is fixed to what its width cannot hold'],
   ])('refuses %s', (_what, request, response, says) => {
     expect(() => declaring(request, response)).toThrow(TypeError)
@@ -118,6 +134,15 @@ describe('describe', () => {
         ],
       },
       expect.objectContaining({ name: 'bitBlocks', item: expect.anything() }),
+    ])
+    expect(describeShape({ a: u16({ default: 4, oneOf: [2, 4], multipleOf: 2 }) })).toEqual([
+      { name: 'a', kind: 'u16', multipleOf: 2, oneOf: [2, 4], default: 4 },
+    ])
+    expect(describeShape(commands.writeExtendUnit.request)).toEqual([
+      expect.objectContaining({ name: 'address', multipleOf: 2 }),
+      { name: 'byteCount', kind: 'count', of: 'data', range: '2..1920', multipleOf: 2 },
+      expect.objectContaining({ name: 'moduleNumber' }),
+      expect.objectContaining({ name: 'data' }),
     ])
     expect(describeShape({ a: fixed(7, 2, 'why'), b: u8({ max: 3 }), c: echo('b'), d: text(4) })).toEqual([
       { name: 'a', kind: 'fixed', value: 7, doc: 'why' },

@@ -1,4 +1,5 @@
 import { describe, expect, test } from '@jest/globals'
+import { writerOf } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { modelOf } from '../../src/melsec/model-code'
 import { type FrameName, lackOf, type Profile, profileIds, profiles } from '../../src/melsec/profile'
@@ -191,14 +192,21 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     asker.ask(commands.writeWords, { head, values: [0x1234, 0xfedc] })
     const asked = { address: 0x100a, byteCount: 4, moduleNumber: 3 }
     expect(asker.ask(commands.readExtendUnit, asked)).toEqual({ data: Buffer.of(0x34, 0x12, 0xdc, 0xfe) })
-    for (const wrong of [
-      { moduleNumber: 4 },
-      { address: 0x1006 },
-      { address: 0x1009 },
-      { byteCount: 3 },
-      { address: 0x1026 },
-    ])
+    for (const wrong of [{ moduleNumber: 4 }, { address: 0x1006 }, { address: 0x1026 }])
       expect(asker.endCode(commands.readExtendUnit, { ...asked, ...wrong })).not.toBe(0)
+    // Half words, which no client of ours sends.
+    for (const [address, byteCount] of [
+      [0x1009, 4],
+      [0x100a, 3],
+    ] as const) {
+      const writer = writerOf(asker.protocol.code, 0)
+      writer.uint(commands.readExtendUnit.code, 2)
+      writer.uint(0, 2)
+      writer.uint(address, 4)
+      writer.uint(byteCount, 2)
+      writer.uint(3, 2)
+      expect(asker.rawEndCode(writer.take())).toBe(0xc05c)
+    }
   },
   writeExtendUnit({ asker }) {
     const written = { address: 0x100a, moduleNumber: 3, data: Buffer.of(0x34, 0x12) }

@@ -159,11 +159,14 @@ class Maker {
   }
 
   private integer(name: string, field: Extract<Field, { kind: 'u8' | 'u16' | 'u32' }>): number {
-    const { min = 0, max = LAST[field.kind], oneOf } = field
+    const { min = 0, max = LAST[field.kind], oneOf, multipleOf } = field
     if (oneOf !== undefined) return this.generate(() => fc.constantFrom(...oneOf))
     // A number of points is also how much a response holds: it stays within what one request may carry.
     if (name === 'points' || name === 'length') return this.generate(() => sizes(min, max))
-    return this.generate(() => fc.oneof(fc.integer({ min, max }), fc.constantFrom(min, max)))
+    return multipleAtMost(
+      this.generate(() => fc.oneof(fc.integer({ min, max }), fc.constantFrom(min, max))),
+      multipleOf,
+    )
   }
 
   private elements<T>(element: fc.Arbitrary<T>, length: number): T[] {
@@ -175,13 +178,21 @@ class Maker {
     const derived = Object.values(shape).find((field) => field.kind === 'count' && field.of === name)
     if (derived?.kind === 'count') {
       const { min = 0, max = 2 ** (8 * derived.width) - 1 } = derived
-      return this.generate(() => sizes(min, max))
+      return multipleAtMost(
+        this.generate(() => sizes(min, max)),
+        derived.multipleOf,
+      )
     }
     const asked = this.context?.shape[count]
     const here = count === name ? undefined : message[count]
     const found = here ?? this.context?.message[asked?.kind === 'count' ? asked.of : count]
     return typeof found === 'number' ? found : (found as ArrayLike<unknown>).length
   }
+}
+
+/** Bounds of such fields are multiples themselves, so none is left. */
+function multipleAtMost(number: number, of = 1): number {
+  return number - (number % of)
 }
 
 function repeated<T>(length: number, make: () => T): T[] {

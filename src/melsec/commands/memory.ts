@@ -4,8 +4,9 @@ const { bytes, countOf, u16, u32, words } = field
 
 const buffer = { address: u32({ doc: 'buffer memory address, words' }) } as const
 const points = { min: 1, max: 480 } as const
-const bounds = { min: 2, max: 1920 } as const
-const byteAddress = u32({ doc: 'bytes: buffer memory address x 2 + start address of the module type' })
+// The manual gives 2H to 780H, words x 2; every start address of the table is even, so an odd one lies within a word.
+const bounds = { min: 2, max: 1920, multipleOf: 2 } as const
+const byteAddress = u32({ multipleOf: 2, doc: 'bytes: buffer memory address x 2 + start address of the module type' })
 const moduleNumber = u16({ doc: 'start I/O number / 16 + the number of the module type on slot 0' })
 const memory = 'SLMP reference manual 5.4'
 const extendUnit = 'SLMP reference manual 5.5'
