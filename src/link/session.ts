@@ -3,6 +3,7 @@
 //
 // Without a serial number a late answer would be taken for the next one. So `order` means one request in flight, and
 // after a timeout or an abandoned request the connection is dropped (stream) or the local port is changed (datagram).
+// The same holds with serial numbers for a stream that stopped in the middle of an answer.
 // With datagrams the network may also duplicate, so there the port is changed after every answer.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
 import type { Framing, Job, Outcome, RequestFrame, ResponseFrame, SessionEvent } from './framing'
@@ -275,6 +276,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     if (sent.length === 0) return
     if (this.#framing.correlation === 'serial') {
       for (const { serial } of sent) this.#serials.rest(serial)
+      this.#leaveHalfAnswer(why)
       return
     }
     if (this.#options.kind === 'datagram') {
@@ -282,6 +284,16 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       return
     }
     const message = `The connection was dropped: ${why}, and without a serial number a late answer could not be told from the next one.`
+    this.#drop(new ConnectionError('DISCONNECTED', message, 'unknown'))
+  }
+
+  /**
+   * The end of half an answer may never come: the next answer would be read as a part of it, and a write that was
+   * carried out would end as unknown. As long as others are in flight it may still come with their answers.
+   */
+  #leaveHalfAnswer(why: string): void {
+    if (this.#received.length === 0 || this.#pending.some((entry) => entry.sent)) return
+    const message = `The connection was dropped: ${why}, and ${this.#received.length} byte(s) of an unfinished answer had arrived.`
     this.#drop(new ConnectionError('DISCONNECTED', message, 'unknown'))
   }
 

@@ -135,6 +135,25 @@ describe.each(frames)('%s', (_title, framing) => {
     expect(told(session)).toEqual(['A answered A', 'D answered D', 'E timedOut unsent'])
   })
 
+  test('half an answer whose end never comes is not put in front of the next one: the connection goes first', () => {
+    const { session, reply } = asking()
+    session.submit(job('B', 5000), 0)
+    session.receive(reply.subarray(0, -1), 999)
+    session.timeout(1000)
+    expect(told(session)).toEqual(['A timedOut sent', 'drop DISCONNECTED'])
+    expect(sent(session, framing)).toEqual([])
+    session.disconnected()
+    expect(told(session)).toEqual(['B disconnected unsent'])
+
+    const abandoned = sessionOf(framing)
+    const a = job('A')
+    abandoned.submit(a, 0)
+    sent(abandoned, framing)
+    abandoned.receive(reply.subarray(0, 1), 1)
+    expect(abandoned.abandon(a, 2)).toBe(true)
+    expect(told(abandoned)).toEqual(['drop DISCONNECTED'])
+  })
+
   test('the end of the connection ends everything once, with what is known', () => {
     const { session, reply } = asking()
     session.submit(job('B'), 0)

@@ -185,6 +185,36 @@ describe('serial numbers', () => {
   })
 })
 
+describe.each(codes)('4E %s: half an answer', (code) => {
+  const framing = frame3e('4E', code)
+
+  test('is waited for as long as another request in flight waits; then the connection is dropped', () => {
+    const session = sessionOf(framing, { window: 2 })
+    session.submit(job('A', 100), 0)
+    session.submit(job('B', 200), 0)
+    const [a, b] = sent(session, framing)
+    if (a === undefined || b === undefined) throw new Error('not sent')
+    const late = answer(framing, a)
+    session.receive(late.subarray(0, 10), 1)
+    session.timeout(100)
+    expect(told(session)).toEqual(['A timedOut sent'])
+    // Its end comes after all: nothing is lost.
+    session.receive(Buffer.concat([late.subarray(10), answer(framing, b).subarray(0, 12)]), 150)
+    expect(told(session)).toEqual([`stale ${a.serial}`])
+    session.timeout(200)
+    expect(told(session)).toEqual(['B timedOut sent', 'drop DISCONNECTED'])
+  })
+
+  test('no half answer, no drop: whatever is late is known by its number', () => {
+    const session = sessionOf(framing)
+    ask(session, framing, 'A')
+    session.timeout(1000)
+    expect(told(session)).toEqual(['A timedOut sent'])
+    session.submit(job('B', 2000), 1000)
+    expect(sent(session, framing)).toHaveLength(1)
+  })
+})
+
 describe.each(codes)('3E %s: without a serial number answers come in order', (code) => {
   const framing = frame3e('3E', code)
   const reply = (text: string) => answer(framing, { serial: undefined, body: Buffer.from(text) })
