@@ -11,6 +11,7 @@ export {
   createMelsecClient,
   type ItemValue,
   MelsecClient,
+  type OnDemand,
   type ReadPlan,
   type ReadValue,
   type UnsolicitedFrame,
@@ -54,6 +55,7 @@ export { explainJwFrame } from './jw/explain-frame'
 export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/address'
 export type { RequestOf, ResponseOf } from './melsec/command'
 export { type CommandName, type Commands, commands } from './melsec/commands/commands'
+export { unsolicitedCommands } from './melsec/commands/on-demand'
 export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from './melsec/device'
 export {
   type EndCodeExplanation,

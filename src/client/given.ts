@@ -55,6 +55,10 @@ export function checkRequest(command: Command, message: unknown, form: unknown):
   if (!isPlainObject(command) || !EFFECTS.includes(command.effect) || !isPlainObject(command.request)) {
     throw new RequestError('BAD_MESSAGE', 'request() takes a declared command, e.g. commands.readWords.', 'command')
   }
+  if (command.sender === 'plc') {
+    const message = `${command.title} is sent by the PLC and cannot be requested: listen with on('ondemand').`
+    throw new RequestError('UNSUPPORTED', message, 'command')
+  }
   if (!isPlainObject(message)) {
     throw new RequestError('BAD_MESSAGE', `The message of ${command.title} is an object, not ${shown(message)}.`)
   }

@@ -224,6 +224,7 @@ export class Line<Head> {
         this.#settle(event)
         return
       case 'unsolicited':
+        counters.add('unsolicited')
         tell(this.#options.onUnsolicited, event.frame)
         return
       case 'stale':

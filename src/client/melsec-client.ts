@@ -21,6 +21,7 @@ import { ItemAccess } from './item-access'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
 import { type Monitor, type MonitorCall, Registration } from './monitor'
+import { checkOnDemand, type Unsolicited, unsolicitedOf } from './on-demand'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import { protocolOf, transportOf } from './parts'
 import type { Item, ItemExplanation, ReadResult, WriteOptions, WriteResult } from './plan'
@@ -32,6 +33,7 @@ import { Tracer } from './trace'
 export type {
   ClientEvents,
   ItemValue,
+  OnDemand,
   ReadPlan,
   ReadValue,
   UnsolicitedFrame,
@@ -42,7 +44,12 @@ export type {
 /** ms that closing may wait for the PLC to lock itself: over TCP the end of the connection locks it, too. */
 const LOCK_TIME = 500
 
-const EVENTS = { state: true, trace: true, unsolicited: true } as const satisfies Record<keyof ClientEvents, true>
+const EVENTS = {
+  state: true,
+  trace: true,
+  ondemand: true,
+  unsolicited: true,
+} as const satisfies Record<keyof ClientEvents, true>
 
 /**
  * A client of one MELSEC PLC over SLMP (3E or 4E frame). It connects at the first call, stays connected in the
@@ -102,7 +109,7 @@ export class MelsecClient {
           silence,
         ),
       onState: (state) => this.#changed(state),
-      onUnsolicited: ({ head, body }) => this.#listeners.tell('unsolicited', { route: head.route, body }),
+      onUnsolicited: (frame) => this.#cameUnasked(unsolicitedOf(frame, settings.code, settings.clock.time())),
     })
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = (command, message, call) => this.request(command, message, call)
@@ -149,14 +156,23 @@ export class MelsecClient {
     return this.#connection.statistics
   }
 
-  /** Listens to an event. @returns what ends it. @throws RequestError BAD_OPTION when there is no such event */
+  /**
+   * Listens to an event; does not connect by itself, see `connect()`. @returns what ends it.
+   * @throws RequestError BAD_OPTION when there is no such event; of `ondemand` also when it could never come
+   */
   on<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
+    if (event === 'ondemand') checkOnDemand(this.#settings, this.options)
     return this.#listeners.on(event, listener)
   }
 
   #traceIfWanted(): void {
     const tell: Connection<Head3e>['onTrace'] = (frame) => this.#listeners.tell('trace', this.#tracer.entry(frame))
     this.#connection.onTrace = this.#listeners.has('trace') ? tell : undefined
+  }
+
+  #cameUnasked({ frame, onDemand }: Unsolicited): void {
+    this.#listeners.tell('unsolicited', frame)
+    if (onDemand !== undefined) this.#listeners.tell('ondemand', onDemand)
   }
 
   #changed(state: ConnectionState): void {

@@ -26,6 +26,8 @@ export interface Statistics {
   readonly protocolErrors: number
   /** Answers to requests that had been given up. */
   readonly stale: number
+  /** Frames that the PLC sent unasked, whether they could be read or not. */
+  readonly unsolicited: number
   /** Attempts to connect. */
   readonly connects: number
   /** Connections that ended otherwise than by `close()`. */
@@ -51,6 +53,7 @@ export class Counters {
     aborted: 0,
     protocolErrors: 0,
     stale: 0,
+    unsolicited: 0,
     connects: 0,
     disconnects: 0,
     bytesSent: 0,

@@ -6,7 +6,7 @@ import { readerOf } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { Framing } from '../link/link'
 import type { Command } from '../melsec/command'
-import { commands } from '../melsec/commands/commands'
+import { knownCommands } from '../melsec/commands/known'
 import {
   type ExplainFrameOptions,
   explainFrame,
@@ -82,7 +82,7 @@ export class Tracer {
   constructor(options: TracerOptions) {
     this.#options = options
     this.#framing = options.frame === '1E' ? undefined : frame3e(options.frame, options.code)
-    this.#commands = options.commands ?? commands
+    this.#commands = options.commands ?? knownCommands
     const secret = Object.values(this.#commands).filter(
       ({ request, response }) => hasSecret(request) || hasSecret(response),
     )
@@ -176,8 +176,10 @@ export class Tracer {
 
   #answer(framing: Framing<Head3e>, bytes: Buffer): Piece {
     const answer = attempt(() => framing.response.scan(bytes, () => undefined))
-    const serial = answer?.frame.serial ?? 0
-    const request = answer === undefined ? undefined : this.#requests.get(serial)
+    // A frame that came unasked answers nothing: the request waits on.
+    if (answer === undefined) return { bytes }
+    const serial = answer.frame.serial ?? 0
+    const request = this.#requests.get(serial)
     this.#requests.delete(serial)
     return {
       bytes,

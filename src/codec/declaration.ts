@@ -19,6 +19,8 @@ export interface Declaration {
   readonly context?: string
   /** `no`: a success is not answered (Remote Reset). */
   readonly answered?: 'no'
+  /** Who sends the request; without it a client does. */
+  readonly sender?: 'plc'
 }
 
 /** A declaration with the name it has in its family's list. */

@@ -101,6 +101,7 @@ function explainKnown(explainer: Explainer, settings: Settings, { command, form 
   const message = readData(explainer, settings, command.request, { form: bits })
   const summary = summaryOf(command, message, settings)
   noteUncertainDigits(explainer, settings, command, message)
+  if (command.sender === 'plc') explainer.notes.push('The PLC sends this of its own accord; nobody answers it.')
   return {
     command,
     title: summary === '' ? command.title : `${command.title}, ${summary}`,

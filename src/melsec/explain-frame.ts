@@ -3,7 +3,7 @@ import { MASK } from '../codec/annotate'
 import { type DataCode, field, type Shape } from '../codec/codec'
 import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../codec/explanation'
 import type { Command } from './command'
-import { commands } from './commands/commands'
+import { knownCommands } from './commands/known'
 import { explain1e } from './explain-1e'
 import { explain4c } from './explain-4c'
 import {
@@ -56,7 +56,7 @@ export function explainFrame(bytes: Buffer, options: ExplainFrameOptions = {}): 
     xyRadix: options.xyRadix ?? profile.xyRadix,
     asciiXy: options.asciiXy,
     asciiZr: options.asciiZr,
-    commands: options.commands ?? commands,
+    commands: options.commands ?? knownCommands,
   }
   if (options.frame === '1E') return explain1e(bytes, known, options)
   if (options.frame === '4C') return explain4c(bytes, { ...known, code: 'binary' }, options)

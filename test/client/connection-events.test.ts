@@ -211,6 +211,7 @@ describe('the counters', () => {
       aborted: 0,
       protocolErrors: 0,
       stale: 0,
+      unsolicited: 0,
       connects: 1,
       disconnects: 0,
       bytesSent: 19 + 3 * 27,

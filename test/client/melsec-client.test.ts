@@ -399,7 +399,7 @@ describe('events', () => {
         inject(onDemand)
         expect(await reading).toBe(5)
         inject(Buffer.concat([onDemand, onDemand]))
-        expect(told).toEqual(Array(3).fill({ route: ownStation, body }))
+        expect(told).toEqual(Array(3).fill({ route: ownStation, body, timestamp: expect.any(Number) }))
         stop()
         inject(onDemand)
         expect(told).toHaveLength(3)

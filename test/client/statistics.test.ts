@@ -12,6 +12,7 @@ describe('counters', () => {
       aborted: 0,
       protocolErrors: 0,
       stale: 0,
+      unsolicited: 0,
       connects: 0,
       disconnects: 0,
       bytesSent: 0,

@@ -1,6 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { type Context, decode, encode, measure, readerOf, type Shape, sumOf, writerOf } from '../../src/codec/codec'
-import { type CommandName, commands } from '../../src/melsec/commands/commands'
+import { commands } from '../../src/melsec/commands/commands'
+import { knownCommands } from '../../src/melsec/commands/known'
 import type { DeviceAddress, DeviceName } from '../../src/melsec/device'
 import { deviceAddress, FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL } from '../../src/melsec/device-codec'
 import { FORM_BITS, readSubcommand, subcommandOf } from '../../src/melsec/form'
@@ -18,7 +19,7 @@ function bitsOf({ form = 'short', xyRadix }: Coded): number {
 }
 
 function commandOf(name: string) {
-  const command = commands[name as CommandName]
+  const command = knownCommands[name as keyof typeof knownCommands]
   if (command === undefined) throw new Error(`No command ${name} is declared`)
   return command
 }
