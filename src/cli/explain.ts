@@ -6,7 +6,12 @@ import { exitCodes } from './exit-code'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
 
-const examples = ['explain C059', 'explain 0xC056 --language ja', 'explain C059 --command executeMonitor']
+const examples = [
+  'explain C059',
+  'explain 0xC056 --language ja',
+  'explain C059 --command executeMonitor',
+  'explain 7601 --language zh-CN',
+]
 
 interface ExplainOptions {
   readonly language: Language
@@ -16,7 +21,7 @@ interface ExplainOptions {
 
 /** `melsec-jw explain` */
 export const explainCommand: MakeCommand = (run) =>
-  newCommand('explain', 'what an end code of the PLC means, and what to do', examples)
+  newCommand('explain', 'what an end code or error code of the PLC means, and what to do', examples)
     .argument('<end code>', 'hexadecimal digits, as the PLC and GX Works show it')
     .addOption(choice('--language <language>', 'language of the text', languages).default('en-US'))
     .addOption(
@@ -49,10 +54,12 @@ function explain(terminal: Terminal, text: string, { language, command, json: as
     terminal.out(json({ endCode, ...found }))
     return
   }
-  const { meaning, cause, remedy, exact } = found
+  const { meaning, cause, remedy, where, answer, exact } = found
   terminal.out(
     table([
-      ['End code', shown],
+      [answer ? 'End code' : 'Error code', shown],
+      // Whoever found the number in a register must not take it for the answer to a request, nor the other way round.
+      ...where.map((text, index) => [index === 0 ? 'Where' : '', text]),
       ['Meaning', meaning],
       ...(cause === undefined ? [] : [['Cause', cause]]),
       ['Remedy', remedy],

@@ -36,10 +36,10 @@ export interface Leaf<Head> {
   readonly outcome: 'read' | 'lost' | EndCodeError
 }
 
-/** Whether the end code may be about a single item of the request. A code nobody has a text for may be. */
+/** Whether the end code may be about a single item of the request. A code no answer is known to carry may be. */
 function isAboutItems({ endCode }: EndCodeError): boolean {
   const explained = explainEndCode(endCode)
-  return explained === undefined || !explained.exact || explained.aboutDevice
+  return explained === undefined || !explained.exact || !explained.answer || explained.aboutDevice
 }
 
 /** After so many runs, items that were refused together are tried one by one again: the PLC may have been changed. */

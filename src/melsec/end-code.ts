@@ -1,34 +1,25 @@
 // What an end code means and what to do, in four languages.
 import type { CommandName } from './commands/commands'
-import { aCompatibleEndCodes } from './end-codes/a-compatible'
-import { cpuEndCodes } from './end-codes/cpu'
-import { cpuFileEndCodes } from './end-codes/cpu-file'
-import { cpuRouteEndCodes } from './end-codes/cpu-route'
 import { type EndCodeEntry, type Language, languages, type Texts } from './end-codes/entry'
-import { ethernetEndCodes } from './end-codes/ethernet'
-import { ethernetFunctionEndCodes } from './end-codes/ethernet-function'
-import { endCodeGroups } from './end-codes/groups'
-import { endCodeHints } from './end-codes/hints'
-import { type RemedyName, remedies } from './end-codes/remedies'
-import { routeAndPasswordEndCodes } from './end-codes/route-and-password'
-import { serialEndCodes } from './end-codes/serial'
-import { slmpEndCodes } from './end-codes/slmp'
+import type { RemedyName } from './end-codes/remedies'
 
 export type { EndCodeEntry, Language } from './end-codes/entry'
 export { languages } from './end-codes/entry'
 
-/** Every end code with a text of its own, in no particular order. */
-export const endCodes: readonly EndCodeEntry[] = [
-  ...slmpEndCodes,
-  ...routeAndPasswordEndCodes,
-  ...cpuEndCodes,
-  ...cpuRouteEndCodes,
-  ...cpuFileEndCodes,
-  ...aCompatibleEndCodes,
-  ...serialEndCodes,
-  ...ethernetEndCodes,
-  ...ethernetFunctionEndCodes,
-]
+type Tables = typeof import('./end-codes/tables')
+
+let loaded: Tables | undefined
+
+/** The texts are large and rarely needed: they are loaded with the first code somebody asks for. */
+function tables(): Tables {
+  loaded ??= require('./end-codes/tables') as Tables
+  return loaded
+}
+
+/** Every end code with a text of its own, in no particular order; `to` is the last code of a range. */
+export function endCodes(): readonly EndCodeEntry[] {
+  return tables().endCodeEntries
+}
 
 export interface EndCodeExplanation {
   /** One or more whole sentences. */
@@ -37,6 +28,10 @@ export interface EndCodeExplanation {
   readonly cause?: string
   /** What to do: one or more whole sentences. */
   readonly remedy: string
+  /** What kind of code it is and where it is found, a sentence each; empty when only its range is known. */
+  readonly where: readonly string[]
+  /** `false`: no answer to a request carries it; a register or history of the PLC holds it. */
+  readonly answer: boolean
   /** It is about the device or address of one item; the other items of a merged request may be asked for again. */
   readonly aboutDevice: boolean
   /** `false`: only the module that reported it is known, from the range the code is in. */
@@ -50,18 +45,18 @@ export interface ExplainOptions {
   readonly command?: CommandName
 }
 
-const byCode: ReadonlyMap<number, EndCodeEntry> = new Map(endCodes.map((entry) => [entry.code, entry]))
-
 function inLanguage(texts: Texts, language: Language): string {
   return texts[languages.indexOf(language)] ?? texts[0]
 }
 
 function remedyOf(remedy: Texts | RemedyName): Texts {
-  return typeof remedy === 'string' ? remedies[remedy] : remedy
+  return typeof remedy === 'string' ? tables().remedies[remedy] : remedy
 }
 
 function causeOf(code: number, command: CommandName | undefined, language: Language): { cause?: string } {
-  const hint = endCodeHints.find(({ code: about, commands }) => about === code && command && commands.includes(command))
+  const hint = tables().endCodeHints.find(
+    ({ code: about, commands }) => about === code && command && commands.includes(command),
+  )
   return hint === undefined ? {} : { cause: inLanguage(hint.cause, language) }
 }
 
@@ -73,13 +68,18 @@ function causeOf(code: number, command: CommandName | undefined, language: Langu
  */
 export function explainEndCode(code: number, options: ExplainOptions = {}): EndCodeExplanation | undefined {
   const { language = 'en-US', command } = options
-  const entry = byCode.get(code)
+  const { entryByCode, endCodeGroups, placesOf } = tables()
+  const entry = entryByCode.get(code)
   const found = entry ?? endCodeGroups.find(({ from, to }) => code >= from && code <= to)
   if (found === undefined) return undefined
+  const places = entry === undefined ? [] : placesOf(code)
   return {
     meaning: inLanguage(found.meaning, language),
     ...causeOf(code, command, language),
     remedy: inLanguage(remedyOf(found.remedy), language),
+    where: places.map(({ text }) => inLanguage(text, language)),
+    // Of a range only that modules report codes of it is known.
+    answer: places.length === 0 || places.some(({ answer }) => answer),
     aboutDevice: entry?.aboutDevice ?? false,
     exact: entry !== undefined,
   }

@@ -115,6 +115,16 @@ describe('explain', () => {
     expect((await run('explain', 'C059', '--language', 'ja')).out).toMatch(/[ぁ-ん]/)
   })
 
+  test('an error code of a register is not called an end code, and says where it is', async () => {
+    const { code, out } = await run('explain', '7601')
+    expect(code).toBe(0)
+    expect(out).toMatch(/^Error code +7601H$/m)
+    expect(out).toMatch(/^Where +.*SD8500/m)
+    expect(out).toMatch(/^Meaning +Inverter communication: the inverter does not respond\.$/m)
+    expect(out).not.toMatch(/End code/)
+    expect((await run('explain', '7601', '--language', 'zh-CN')).out).toMatch(/^Where +.*串行通信/m)
+  })
+
   test('as JSON', async () => {
     const { out } = await run('explain', 'C056', '--json')
     expect(JSON.parse(out)).toMatchObject({ endCode: 0xc056, exact: true })

@@ -3,7 +3,9 @@ import { commands } from '../../src/melsec/commands/commands'
 import { endCodes, explainEndCode, languages } from '../../src/melsec/end-code'
 import { endCodeGroups } from '../../src/melsec/end-codes/groups'
 import { endCodeHints } from '../../src/melsec/end-codes/hints'
+import { endCodePlaces, placesOf } from '../../src/melsec/end-codes/places'
 import { remedies } from '../../src/melsec/end-codes/remedies'
+import { codesOf, errorTables } from './error-tables'
 
 /** Characters that exist in one of the two Chinese scripts only, as far as these texts could need them. */
 const SIMPLIFIED_ONLY =
@@ -12,14 +14,18 @@ const TRADITIONAL_ONLY = /[軟號錯請認連訪問數據設備執檢編碼讀�
 const KANA = /[ぁ-んァ-ヶ]/
 
 const allTexts = [
-  ...endCodes.map(({ code, meaning }) => [`meaning of ${code.toString(16)}`, meaning] as const),
-  ...endCodes.flatMap(({ code, remedy }) =>
+  ...endCodes().map(({ code, meaning }) => [`meaning of ${code.toString(16)}`, meaning] as const),
+  ...endCodes().flatMap(({ code, remedy }) =>
     typeof remedy === 'string' ? [] : [[`remedy of ${code.toString(16)}`, remedy] as const],
   ),
   ...Object.entries(remedies),
   ...endCodeGroups.map(({ from, meaning }) => [`group ${from.toString(16)}`, meaning] as const),
   ...endCodeHints.map(({ code, cause }) => [`hint of ${code.toString(16)}`, cause] as const),
+  ...endCodePlaces.map(({ name, text }) => [`place ${name}`, text] as const),
 ]
+
+const range = (from: number, to: number): number[] => Array.from({ length: to - from + 1 }, (_, index) => from + index)
+const sorted = (codes: readonly number[]): number[] => [...new Set(codes)].sort((a, b) => a - b)
 
 describe('end code texts', () => {
   test('every text exists in four languages, none empty, each in its own script, each a sentence', () => {
@@ -38,37 +44,79 @@ describe('end code texts', () => {
   })
 
   test('no code stands twice, and every one names its source', () => {
-    const codes = endCodes.map(({ code }) => code)
+    const codes = endCodes().flatMap(({ code, to = code }) => range(code, to))
     expect(codes.filter((code, index) => codes.indexOf(code) !== index)).toEqual([])
-    for (const { source } of [...endCodes, ...endCodeGroups, ...endCodeHints]) expect(source).not.toBe('')
+    for (const { source } of [...endCodes(), ...endCodeGroups, ...endCodeHints]) expect(source).not.toBe('')
   })
 
   test.each([
-    [
-      'SLMP 3E of the FX5 CPU module',
-      'C035 C050 C051 C052 C053 C054 C056 C058 C059 C05B C05C C05F C060 C061 C06F C0D8 C200 C201 C204 C810 C815 C816',
-    ],
-    ['SLMP of the FX5 Ethernet module', 'C057 C05E C0B2 4030 4031 4032 4033 4041 4043'],
     [
       'CPU modules in general',
       '4000 4001 4002 4003 4004 4005 4008 4010 4013 4021 4022 4030 4031 4032 4033 4034 4040 4041 4042 4043 4080 408B 4A00 4B00',
     ],
     ['Q and L Ethernet', 'C055 C05A C05D C070 C071 C072 C073 C075 C0B5 C0D4 C200 C201 C202 C203 C204'],
     ['1E', '50 54 55 56 57 58 5B 60 10 11 12 18'],
-    ['1C', '02 03 06 07 10 18'],
-    ['3C and 4C', '7143 7164 7167 7168 7E40 7E41 7E42 7E43 7F21 7F22 7F23 7F24 7F26 7F40 7F67 7F68 7F69 7FE6'],
-    [
-      'Ethernet history of the FX5 CPU module',
-      '1120 1134 2160 2250 C012 C013 C015 C020 C024 C025 C027 C029 C0B6 C0DE C1A2 C1AC C1AD C1AF C1B0 C1B1 C1B3 C1B4 C1BA C1C6 C1CC C1CD C1D0 C1D3 C400 C401 C404 C405 C410 C411 C417 C431 C614 CEE0 CEE1 CEE2 CF10 CF20 CF30 CF31 CF70 CF71 CFB2',
-    ],
-    [
-      'Ethernet history of the FX5 Ethernet module',
-      'C017 C04C C1A4 C1A6 C1A7 C1A8 C1B2 C709 CFB0 CFB1 CFB3 CFB4 CFB5 CFBF',
-    ],
-    ['FX5 FTP client', '41C5 41C7 41CC 41CD 41CE 41CF 41D8 41DF 41E4 41EB 41FE C616 C618 C619 C620 C621 C622'],
   ])('%s: every code has a text of its own', (_name, list) => {
     const missing = list.split(' ').filter((hex) => explainEndCode(Number.parseInt(hex, 16))?.exact !== true)
     expect(missing).toEqual([])
+  })
+
+  test.each(errorTables.map(({ table, place, codes }) => [table, place, codes] as const))(
+    'FX5 %s: every code has a text of its own and says where it is seen',
+    (_table, place, list) => {
+      const shown = endCodePlaces.find(({ name }) => name === place)?.text[0]
+      expect(codesOf(list).filter((code) => explainEndCode(code)?.exact !== true)).toEqual([])
+      expect(codesOf(list).filter((code) => explainEndCode(code)?.where.includes(shown ?? '') !== true)).toEqual([])
+    },
+  )
+
+  test('FX5: the places hold no code the tables do not', () => {
+    for (const { name, codes } of endCodePlaces.filter(({ answer }) => !answer)) {
+      const expected = errorTables.filter(({ place }) => place === name).flatMap((table) => codesOf(table.codes))
+      const held = codes.flatMap((entry) => (typeof entry === 'number' ? entry : range(...entry)))
+      expect([name, sorted(held)]).toEqual([name, sorted(expected)])
+    }
+  })
+
+  test('every code with a text says where it is seen, and every code of a place has a text', () => {
+    const known = new Set(endCodes().flatMap(({ code, to = code }) => range(code, to)))
+    expect([...known].filter((code) => placesOf(code).length === 0).map((code) => code.toString(16))).toEqual([])
+    const listed = endCodePlaces.flatMap(({ codes }) =>
+      codes.flatMap((entry) => (typeof entry === 'number' ? entry : range(...entry))),
+    )
+    // Of 4000H to 4FFFH the manual says only that the CPU module detected the error: groups.ts.
+    const without = listed.filter((code) => !known.has(code) && (code < 0x4000 || code > 0x4fff))
+    expect([...new Set(without)].map((code) => code.toString(16))).toEqual([])
+  })
+
+  test('a code of a register is no answer, a code of an answer is one, a range is one text', () => {
+    expect(explainEndCode(0xc059)).toMatchObject({ answer: true })
+    expect(explainEndCode(0x7601)).toMatchObject({
+      answer: false,
+      exact: true,
+      where: [expect.stringContaining('SD8500')],
+      meaning: expect.stringContaining('inverter does not respond'),
+    })
+    expect(explainEndCode(0xc06f)).toMatchObject({ answer: false })
+    expect(explainEndCode(0x7143, { language: 'zh-CN' })?.where).toEqual([
+      expect.stringContaining('NAK'),
+      expect.stringContaining('SD8500'),
+    ])
+    for (const code of [0x3e30, 0x3e3f, 0x3e42]) expect(explainEndCode(code)).toEqual(explainEndCode(0x3e30))
+    expect(explainEndCode(0x3e43)).toBeUndefined()
+    expect(explainEndCode(0x4fff)).toMatchObject({ exact: false, where: [], answer: true })
+  })
+
+  test('errors of an inverter are put together as the manual lists them', () => {
+    expect(explainEndCode(0x7640)?.meaning).toContain('send data 1 was refused (mode error)')
+    expect(explainEndCode(0x7645)?.meaning).toContain('send data 2 was refused (data range error)')
+    expect(explainEndCode(0x764b)?.meaning).toContain(
+      'send data 1 (instruction code error) and send data 2 (data range error)',
+    )
+    expect(explainEndCode(0x764d, { language: 'ja' })?.meaning).toContain(
+      '送信データ1はデータ範囲エラー、送信データ2は命令コードエラー',
+    )
+    for (const { code, meaning } of endCodes()) expect([code, meaning.join().includes('{')]).toEqual([code, false])
   })
 
   test('each language gives its own text; English is the default', () => {
@@ -79,7 +127,9 @@ describe('end code texts', () => {
   })
 
   test('the codes about a device or address of one item, and only those, may be asked for one by one', () => {
-    const about = endCodes.filter(({ aboutDevice }) => aboutDevice === true).map(({ code }) => code)
+    const about = endCodes()
+      .filter(({ aboutDevice }) => aboutDevice === true)
+      .map(({ code }) => code)
     for (const code of [0xc056, 0xc05b, 0xc05c, 0x4030, 0x4031, 0x4032, 0x4033, 0x4041, 0x4043, 0xc070, 0x56, 0x7e43]) {
       expect(about).toContain(code)
       expect(explainEndCode(code)?.aboutDevice).toBe(true)
@@ -99,7 +149,7 @@ describe('end code texts', () => {
 
   test('hints are about codes with a text and commands that exist', () => {
     for (const { code, commands: names } of endCodeHints) {
-      expect(endCodes.map((entry) => entry.code)).toContain(code)
+      expect(endCodes().map((entry) => entry.code)).toContain(code)
       for (const name of names) expect(Object.keys(commands)).toContain(name)
     }
   })

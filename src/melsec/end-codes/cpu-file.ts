@@ -331,6 +331,44 @@ export const cpuFileEndCodes: readonly EndCodeEntry[] = [
     source: FX5_ETHERNET,
   },
   {
+    code: 0x4c40,
+    meaning: [
+      'FTP client: the wildcard matches no file, or more files than can be transferred.',
+      'FTPクライアント: ワイルドカードに一致するファイルがないか、転送可能なファイル数を超えています。',
+      'FTP客户端：没有与通配符一致的文件，或一致的文件超过可传送的文件数。',
+      'FTP用戶端：沒有與萬用字元一致的檔案，或一致的檔案超過可傳送的檔案數。',
+    ],
+    remedy: 'correctFile',
+    source: FX5_ETHERNET,
+  },
+  {
+    code: 0x4c43,
+    meaning: [
+      'FTP client: not all files were transferred.',
+      'FTPクライアント: 処理が完了したファイル数が総数と一致しません。',
+      'FTP客户端：处理完成的文件数与文件总数不一致。',
+      'FTP用戶端：處理完成的檔案數與檔案總數不一致。',
+    ],
+    remedy: [
+      'Transfer the files again.',
+      'ファイル転送を再度実行してください。',
+      '请重新传送文件。',
+      '請重新傳送檔案。',
+    ],
+    source: FX5_ETHERNET,
+  },
+  {
+    code: 0x4c44,
+    meaning: [
+      'FTP client: a backup or restoration of the CPU is running.',
+      'FTPクライアント: CPUのバックアップまたはリストアの実行中です。',
+      'FTP客户端：正在执行CPU模块的备份/还原。',
+      'FTP用戶端：正在執行CPU模組的備份/還原。',
+    ],
+    remedy: 'retryLater',
+    source: FX5_ETHERNET,
+  },
+  {
     code: 0x480c,
     meaning: ['Automatic detection is running.', '自動検出を実行中です。', '正在执行自动检测。', '正在執行自動檢測。'],
     remedy: 'retryLater',

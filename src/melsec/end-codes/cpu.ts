@@ -82,7 +82,12 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '初始通信失败。',
       '初始通訊失敗。',
     ],
-    remedy: 'retryLater',
+    remedy: [
+      'Let the stations start communication at different times.',
+      '通信を開始するタイミングを局ごとにずらしてください。',
+      '请错开各站开始通信的时机。',
+      '請錯開各站開始通訊的時機。',
+    ],
     source: FX5_ETHERNET,
   },
   {

@@ -12,6 +12,8 @@ export type Texts = readonly [enUS: string, ja: string, zhCN: string, zhTW: stri
 
 export interface EndCodeEntry {
   readonly code: number
+  /** Last code of a range, where the manual has one text for all of it. */
+  readonly to?: number
   readonly meaning: Texts
   /** What to do: an own text, or one that many codes share. */
   readonly remedy: Texts | RemedyName
@@ -25,6 +27,12 @@ export type EndCodeRow = readonly [code: number, remedy: RemedyName, ...meaning:
 
 export function entriesOf(rows: readonly EndCodeRow[], source: string): readonly EndCodeEntry[] {
   return rows.map(([code, remedy, ...meaning]) => ({ code, meaning, remedy, source }))
+}
+
+/** Texts of one pattern, for codes that differ in a noun: `{}` stands for it. */
+export function filled(pattern: Texts, [enUS, ja, zhCN, zhTW]: Texts): Texts {
+  const [p0, p1, p2, p3] = pattern
+  return [p0.replace('{}', enUS), p1.replace('{}', ja), p2.replace('{}', zhCN), p3.replace('{}', zhTW)]
 }
 
 /** What stands behind codes nobody has a text for. */
@@ -47,4 +55,6 @@ export interface EndCodeHint {
 export const FX5_SLMP = 'FX5 communication manual 47.4'
 export const FX5_ETHERNET = 'FX5 communication manual 47.1'
 export const FX5_SERIAL = 'FX5 communication manual 47.2'
+export const FX5_MODBUS = 'FX5 communication manual 47.3'
+export const FX5_EVENTS = 'FX5 communication manual 47.1 and 48'
 export const BACKGROUND = 'background: error code lists of Q, L and iQ-R CPU and Ethernet modules'

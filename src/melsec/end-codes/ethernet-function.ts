@@ -69,11 +69,11 @@ const rows: readonly EndCodeRow[] = [
   ],
   [
     0xc614,
-    'ftp',
-    'The response monitoring timer of the FTP client ran out.',
-    'FTPクライアントの応答監視タイマがタイムアップしました。',
-    'FTP客户端的响应监视定时器超时。',
-    'FTP用戶端的回應監視計時器逾時。',
+    'ftpTimer',
+    'The response monitoring timer of the FTP server in the CPU ran out.',
+    'CPUのFTPサーバの応答監視タイマがタイムアップしました。',
+    'CPU的FTP服务器的响应监视定时器超时。',
+    'CPU的FTP伺服器的回應監視計時器逾時。',
   ],
   [
     0xc616,
@@ -231,10 +231,10 @@ const rows: readonly EndCodeRow[] = [
   [
     0xcfb4,
     'checkPartner',
-    'Simple CPU communication: the other device answered an error.',
-    'シンプルCPU通信: 相手から異常応答を受信しました。',
-    '简单CPU通信：收到对方的异常响应。',
-    '簡單CPU通訊：收到對方的異常回應。',
+    'Simple CPU communication: the other device answered an error; its code is in SD10476 to SD10507 (Un\\G480 to Un\\G511).',
+    'シンプルCPU通信: 相手から異常応答を受信しました。コードはSD10476～SD10507(Un\\G480～Un\\G511)に入ります。',
+    '简单CPU通信：收到对方的异常响应，其代码在SD10476～SD10507（Un\\G480～Un\\G511）中。',
+    '簡單CPU通訊：收到對方的異常回應，其代碼在SD10476～SD10507（Un\\G480～Un\\G511）中。',
   ],
   [
     0xcfb5,

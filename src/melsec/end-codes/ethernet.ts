@@ -30,10 +30,10 @@ const rows: readonly EndCodeRow[] = [
   [
     0x2250,
     'checkParameters',
-    'The protocol setting data in the CPU are not for this module.',
-    'CPUのプロトコル設定データがこのユニットで使用できません。',
-    'CPU中的协议设置数据不能用于该模块。',
-    'CPU中的協定設定資料不能用於該模組。',
+    'The protocol setting data in the CPU are wrong or damaged, or not for this module (SD9120 to SD9123).',
+    'CPUのプロトコル設定データに誤りまたは破損があるか、このユニットで使用できません(SD9120～SD9123)。',
+    'CPU中的协议设置数据有误或已损坏，或不能用于该模块（SD9120～SD9123）。',
+    'CPU中的協定設定資料有誤或已損壞，或不能用於該模組（SD9120～SD9123）。',
   ],
   [
     0xc012,

@@ -152,6 +152,91 @@ export const remedies = {
     '请检查FTP服务器的设置、文件夹、权限、防火墙和连接。',
     '請檢查FTP伺服器的設定、資料夾、權限、防火牆和連線。',
   ],
+  ftpTimer: [
+    'File access can take long: set a longer response monitoring timer in the FTP server settings of the CPU.',
+    'ファイルアクセスに時間がかかる場合があります。CPUのFTPサーバ設定で応答監視タイマを長くしてください。',
+    '文件访问有时需要较长时间，请在CPU的FTP服务器设置中延长响应监视定时器。',
+    '檔案存取有時需要較長時間，請在CPU的FTP伺服器設定中延長回應監視計時器。',
+  ],
+  supplier: [
+    'Contact Mitsubishi Electric or your supplier.',
+    '三菱電機または購入先にご相談ください。',
+    '请向三菱电机或供应商咨询。',
+    '請洽詢三菱電機或供應商。',
+  ],
+  module: [
+    'Do it again. If the error comes back, the module may be faulty: contact the supplier.',
+    '再度実行してください。再発する場合はユニットの故障が考えられます。購入先にご相談ください。',
+    '请重新执行。如再次发生，可能是模块故障，请联系供应商。',
+    '請重新執行。如再次發生，可能是模組故障，請聯絡供應商。',
+  ],
+  writeProgram: [
+    'Write the program to the PLC again. If the error comes back, the module may be faulty: contact the supplier.',
+    'プログラムを再度書き込んでください。再発する場合はユニットの故障が考えられます。購入先にご相談ください。',
+    '请重新写入程序。如再次发生，可能是模块故障，请联系供应商。',
+    '請重新寫入程式。如再次發生，可能是模組故障，請聯絡供應商。',
+  ],
+  writeProject: [
+    'Correct the parameters in GX Works3 and write the project to the PLC again.',
+    'GX Works3でパラメータを修正し、プロジェクトを再度書き込んでください。',
+    '请在GX Works3中修改参数，并重新写入工程。',
+    '請在GX Works3中修改參數，並重新寫入專案。',
+  ],
+  etherNetIp: [
+    'Write the EtherNet/IP parameters again with the EtherNet/IP Configuration Tool for FX5-ENET/IP. If the error comes back, contact the supplier.',
+    'EtherNet/IP Configuration Tool for FX5-ENET/IPでEtherNet/IPパラメータを再度書き込んでください。再発する場合は購入先にご相談ください。',
+    '请用EtherNet/IP Configuration Tool for FX5-ENET/IP重新写入EtherNet/IP参数。如再次发生，请联系供应商。',
+    '請用EtherNet/IP Configuration Tool for FX5-ENET/IP重新寫入EtherNet/IP參數。如再次發生，請聯絡供應商。',
+  ],
+  packet: [
+    'Check the packets and the specification of the other device; ask its manufacturer.',
+    '通信パケットと相手機器の仕様を確認し、相手機器のメーカに問い合わせてください。',
+    '请检查通信数据包和对方设备的规格，并咨询对方设备的厂商。',
+    '請檢查通訊封包和對方裝置的規格，並洽詢對方裝置的廠商。',
+  ],
+  protocolPacket: [
+    'Check the data the other device sends, and the packet format in the protocol setting.',
+    '相手機器が送信するデータと、プロトコル設定のパケットフォーマットを確認してください。',
+    '请检查对方设备发送的数据和协议设置中的数据包格式。',
+    '請檢查對方裝置傳送的資料和協定設定中的封包格式。',
+  ],
+  firmware: [
+    'Put the right firmware file on the SD card and update again.',
+    'SDメモリカードのファイルを正しいものに置き換え、再度アップデートしてください。',
+    '请将SD存储卡中的升级文件替换为正确的文件后重新升级。',
+    '請將SD記憶卡中的更新檔案換成正確的檔案後重新更新。',
+  ],
+  linkStations: [
+    'Check wiring, power and station No. of all stations.',
+    'すべての局の配線、電源、局番を確認してください。',
+    '请检查各站的接线、电源和站号。',
+    '請檢查各站的接線、電源和站號。',
+  ],
+  linkDevices: [
+    'Check the number of local stations, the station No. and the head numbers of the link devices.',
+    'ローカル局の総数、局番、リンクデバイスの先頭番号を確認してください。',
+    '请检查本地站总数、站号和链接软元件的起始编号。',
+    '請檢查本地站總數、站號和連結軟元件的起始編號。',
+  ],
+  inverterLine: [
+    'Check cable, termination and power of the inverter, its station No., and the communication settings of both sides.',
+    'ケーブル、終端抵抗、インバータの電源、局番、両側の通信設定を確認してください。',
+    '请检查电缆、终端电阻、变频器的电源、站号和双方的通信设置。',
+    '請檢查電纜、終端電阻、變頻器的電源、站號和雙方的通訊設定。',
+  ],
+  inverterMode: [
+    'Write in computer link operation mode, and what cannot be changed in operation only while the inverter is stopped.',
+    '計算機リンク運転モードで書き込み、運転中に変更できない項目はインバータの停止中に書き込んでください。',
+    '请在计算机链接运行模式下写入；运行中不能更改的项目请在变频器停止时写入。',
+    '請在電腦連結運轉模式下寫入；運轉中不能變更的項目請在變頻器停止時寫入。',
+  ],
+  modbusRequest: [
+    'Correct the request of the MODBUS master.',
+    'MODBUSマスタの要求内容を修正してください。',
+    '请修改MODBUS主站的请求内容。',
+    '請修改MODBUS主站的請求內容。',
+  ],
+  nothing: ['Nothing to do.', '処置は不要です。', '无需处理。', '無需處理。'],
 } as const satisfies Readonly<Record<string, Texts>>
 
 export type RemedyName = keyof typeof remedies

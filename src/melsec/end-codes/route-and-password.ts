@@ -49,13 +49,13 @@ export const routeAndPasswordEndCodes: readonly EndCodeEntry[] = [
   {
     code: 0xc0de,
     meaning: [
-      'Nothing arrived within the arrival monitoring time, or receiving failed.',
-      '到達監視時間以内にデータを受信できないか、受信に失敗しました。',
-      '在到达监视时间以内未收到数据，或接收失败。',
-      '在到達監視時間以內未收到資料，或接收失敗。',
+      'Receiving a socket message failed, or nothing arrived within the arrival monitoring time.',
+      'ソケット通信の受信に失敗したか、到達監視時間以内にデータを受信できませんでした。',
+      'Socket通信的接收失败，或在到达监视时间以内未收到数据。',
+      'Socket通訊的接收失敗，或在到達監視時間以內未收到資料。',
     ],
     remedy: 'checkPartner',
-    source: FX5_ETHERNET,
+    source: `${FX5_ETHERNET}; arrival monitoring time ${BACKGROUND}`,
   },
   {
     code: 0xc1a2,
@@ -65,8 +65,13 @@ export const routeAndPasswordEndCodes: readonly EndCodeEntry[] = [
       '未收到对请求的响应，或到其他网络的中继超过7站。',
       '未收到對請求的回應，或到其他網路的中繼超過7站。',
     ],
-    remedy: 'correctRoute',
-    source: FX5_ETHERNET,
+    remedy: [
+      'Wait longer for the response, and check the route and the target station.',
+      '応答待ち時間を長くし、ルートと対象局を確認してください。',
+      '请延长响应等待时间，并检查路径和对象站。',
+      '請延長回應等待時間，並檢查路徑和對象站。',
+    ],
+    source: `${FX5_ETHERNET}; relays ${BACKGROUND}`,
   },
   {
     code: 0xc1a4,
@@ -76,8 +81,13 @@ export const routeAndPasswordEndCodes: readonly EndCodeEntry[] = [
       '指令、子指令或请求目标模块I/O编号有误，或对象设备不支持该功能。',
       '指令、子指令或請求目標模組I/O編號有誤，或對象裝置不支援該功能。',
     ],
-    remedy: 'correctRoute',
-    source: FX5_ETHERNET,
+    remedy: [
+      'Correct the request and its route. Ethernet diagnostics of an FX5 need a direct connection to the CPU, not to the Ethernet module.',
+      '要求内容とルートを修正してください。FX5のEthernet診断は、EthernetユニットではなくCPUに直結して実行してください。',
+      '请修改请求内容和路径。FX5的以太网诊断请直接连接CPU模块执行，而不是以太网模块。',
+      '請修改請求內容和路徑。FX5的乙太網路診斷請直接連接CPU模組執行，而不是乙太網路模組。',
+    ],
+    source: `${FX5_ETHERNET}; command and route ${BACKGROUND}`,
   },
   {
     code: 0xc1a5,

@@ -1,4 +1,4 @@
-// NAK codes of the 3C and 4C frames, and what a CPU notes of a 1C frame in SD8500 and following.
+// NAK codes of the 3C and 4C frames, and what all serial functions of a CPU note in SD8500 and following.
 import { BACKGROUND, type EndCodeEntry, FX5_SERIAL } from './entry'
 
 export const serialEndCodes: readonly EndCodeEntry[] = [
@@ -200,7 +200,12 @@ export const serialEndCodes: readonly EndCodeEntry[] = [
   },
   {
     code: 0x7f24,
-    meaning: ['The sum check does not match.', 'サムチェックが一致しません。', '和校验不一致。', '總和檢查不一致。'],
+    meaning: [
+      'The sum check, the parity code or the error detection code does not match.',
+      'サムチェック、パリティ、または誤り検出コードが一致しません。',
+      '和校验码、奇偶校验码或错误检测码不一致。',
+      '總和檢查碼、同位檢查碼或錯誤檢測碼不一致。',
+    ],
     remedy: 'serialLine',
     source: FX5_SERIAL,
   },
@@ -262,7 +267,12 @@ export const serialEndCodes: readonly EndCodeEntry[] = [
   {
     code: 0x7f6a,
     meaning: ['The receive buffer is full.', '受信バッファがフルです。', '接收缓冲区已满。', '接收緩衝區已滿。'],
-    remedy: 'lessLoad',
+    remedy: [
+      'Clear the receive buffer after a protocol that receives.',
+      '受信を伴う通信プロトコルの実行後に、受信バッファをクリアしてください。',
+      '请在执行伴随接收的通信协议后清除接收缓冲区。',
+      '請在執行伴隨接收的通訊協定後清除接收緩衝區。',
+    ],
     source: FX5_SERIAL,
   },
   {

@@ -240,10 +240,10 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
   {
     code: 0xc06f,
     meaning: [
-      'The PLC expects binary code and received ASCII, or the other way round. It is only in the error history: no answer is sent.',
-      '交信データコードの設定と異なるコードの電文を受信しました。エラー履歴にのみ登録され、応答は返りません。',
-      '收到了与通信数据代码设置不符的报文。仅登录错误履历，不返回响应。',
-      '收到了與通訊資料代碼設定不符的報文。僅登錄錯誤履歷，不傳回回應。',
+      'The PLC expects binary code and received a request in ASCII code. It is only in the error history: no answer is sent.',
+      '交信データコードが「バイナリ」のとき、ASCIIの要求電文を受信しました。エラー履歴にのみ登録され、応答は返りません。',
+      '通信数据代码为“二进制”时，收到了ASCII的请求报文。仅登录错误履历，不返回响应。',
+      '通訊資料代碼為「二進位」時，收到了ASCII的請求報文。僅登錄錯誤履歷，不傳回回應。',
     ],
     remedy: 'dataCode',
     source: FX5_SLMP,
