@@ -1,5 +1,5 @@
-// Codes that Read PC Type Name (1E 15H, 1C PC) answers: FX5 communication manual 44 (1C). One code may stand for
-// several series: F3H is FX5 and FX3U alike.
+// Codes that Read PC Type Name (1E 15H, 1C PC) answers: FX5 communication manual 44.5 (1C). One code may stand
+// for several series: F3H is FX5 and FX3U alike.
 
 const rows: readonly (readonly [code: number, ...models: string[]])[] = [
   [0xf3, 'FX5S', 'FX5UJ', 'FX5U', 'FX5UC', 'FX3U', 'FX3UC'],
@@ -12,7 +12,7 @@ const rows: readonly (readonly [code: number, ...models: string[]])[] = [
   [0x9d, 'FX2N', 'FX2NC'],
   [0x98, 'A0J2HCPU', 'A1SCPU', 'A1SJCPU'],
   [0xa1, 'A1CPU', 'A1NCPU'],
-  [0xa2, 'A2CPU', 'A2NCPU', 'A2SCPU'],
+  [0xa2, 'A2CPU', 'A2CPU-S1', 'A2NCPU', 'A2NCPU-S1', 'A2SCPU'],
   [0x92, 'A2ACPU'],
   [0x93, 'A2ACPU-S1'],
   [0x9a, 'A2CCPU', 'A52GCPU'],

@@ -1,6 +1,8 @@
 import { describe, expect, test } from '@jest/globals'
+import { pcTypeCodes } from '../../src/melsec/a-compatible-type'
 import { modelCodes, modelOf } from '../../src/melsec/model-code'
 import { profileIds } from '../../src/melsec/profile'
+import { fx5Models, pcTypes, slmpModels } from './model-tables'
 
 describe('model codes', () => {
   test.each([
@@ -39,6 +41,23 @@ describe('model codes', () => {
       'CC-Link IE Field': 1,
       'iQ-L': 1,
     })
+  })
+
+  test('every code of the tables of both manuals names their models, and no code stands for others', () => {
+    for (const [code, ...models] of [...slmpModels, ...fx5Models]) {
+      expect([code, [...(modelOf(Number.parseInt(code, 16))?.models ?? [])].sort()]).toEqual([code, models.sort()])
+    }
+    const printed = new Set([...slmpModels, ...fx5Models].map(([code]) => Number.parseInt(code, 16)))
+    // A note of SLMP reference manual 5.6, and what only measurements know.
+    const others = [...modelCodes].filter(([code, { source }]) => !printed.has(code) && source === undefined)
+    expect(others.map(([code]) => code)).toEqual([0x0360])
+  })
+
+  test('the type codes of the command PC (1C) and of 1E name the models of the manual', () => {
+    expect([...pcTypeCodes.keys()].sort()).toEqual(pcTypes.map(([code]) => Number.parseInt(code, 16)).sort())
+    for (const [code, ...models] of pcTypes) {
+      expect([code, [...(pcTypeCodes.get(Number.parseInt(code, 16)) ?? [])].sort()]).toEqual([code, models.sort()])
+    }
   })
 
   test('every model has a name, no model has two codes, every profile exists', () => {
