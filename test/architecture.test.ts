@@ -28,7 +28,7 @@ const ROOMS: Readonly<Record<string, readonly string[]>> = {
 const OUTSIDE: readonly (readonly [RegExp, readonly string[]])[] = [
   [/^node:(net|dgram|dns)$/, ['transport']],
   [/^serialport$/, ['transport']],
-  [/^iconv-lite$/, ['value']],
+  [/^iconv-lite$/, ['value', 'melsec']],
   [/^commander$/, ['cli']],
   [/^node:buffer$/, Object.keys(ROOMS)],
   // Time and the network reach the command line through the library like everybody else.

@@ -87,7 +87,9 @@ export class Tracer {
       ({ request, response }) => hasSecret(request) || hasSecret(response),
     )
     this.#secretCodes = new Set(secret.map(({ code }) => code))
-    this.#secretAnswers = secret.some(({ response }) => Object.keys(response).length > 0)
+    this.#secretAnswers = secret.some(
+      ({ response }) => hasSecret(response) || Object.values(response).some(({ kind }) => kind === 'echo'),
+    )
   }
 
   /** The connection is gone: the rest of a frame does not come any more. */

@@ -137,6 +137,7 @@ class Walk {
         message[name] = this.#leaf(path, field)
         return
       case 'fixed':
+      case 'spare':
       case 'echo':
         this.#leaf(path, field)
         return
@@ -211,6 +212,7 @@ class Walk {
         return field.value
       case 'count': {
         const written = readerOf(code, this.#bytes.subarray(start)).uint(field.width)
+        if (written === field.noneToo) return 0
         return written === 0 ? (field.zeroMeans ?? 0) : written
       }
       case 'echo':
@@ -232,7 +234,7 @@ function isSecret(field: Field, context: Context | undefined): boolean {
     const original = context?.shape[field.of]
     return original !== undefined && isSecret(original, undefined)
   }
-  return field.kind === 'text' && field.secret === true
+  return (field.kind === 'text' && field.secret === true) || (field.kind === 'value' && field.codec.secret === true)
 }
 
 /** Whether a shape has a secret anywhere. */
@@ -264,6 +266,7 @@ export function showBytes(bytes: Buffer, code: DataCode, secret = false): string
 
 /** A value in words that know no protocol. */
 export function plainText(value: unknown): string {
+  if (value === undefined) return 'spare, whatever it holds'
   if (value instanceof Uint8Array) return showBytes(Buffer.from(value), 'binary')
   if (Array.isArray(value)) return value.map(plainText).join(' ')
   if (typeof value === 'string') return value === MASK ? value : JSON.stringify(value)

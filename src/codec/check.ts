@@ -28,6 +28,8 @@ function problemOf(name: string, field: Field, shape: Shape, request: Shape | un
       return integerProblem(field)
     case 'fixed':
       return field.value >= 0 && field.value <= last(field.width) ? undefined : 'is fixed to what its width cannot hold'
+    case 'spare':
+      return Number.isInteger(field.size) && field.size > 0 ? undefined : 'has no size'
     case 'count':
       return boundsProblem(field, field.width) ?? derivedProblem(name, field, shape)
     case 'echo':

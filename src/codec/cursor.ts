@@ -50,6 +50,8 @@ export interface ValueCodec<T> {
   readonly name: string
   /** The size is in the value and in nothing that stands before it: `size` needs the value. */
   readonly variable?: true
+  /** A password: never shown in traces and explanations. */
+  readonly secret?: true
   /** Throws `RequestError` when the value cannot be said in this form. */
   write(writer: Writer, value: T): void
   read(reader: Reader): T

@@ -11,7 +11,7 @@ export interface FieldDescription {
   /** The only numbers that may stand here. */
   readonly oneOf?: readonly number[]
   /** What is written when a message leaves the field out. */
-  readonly default?: number
+  readonly default?: unknown
   readonly count?: Count
   readonly value?: number
   readonly of?: string

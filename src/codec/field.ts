@@ -35,12 +35,22 @@ export interface FixedField extends Documented {
   readonly kind: 'fixed'
   readonly width: Width
   readonly value: number
+  /** ASCII code: these characters, where they are not the digits of the value. */
+  readonly ascii?: string
+}
+/** Written as zeros, invisible in the message; whatever is read there is passed over. */
+export interface SpareField extends Documented {
+  readonly kind: 'spare'
+  /** Bytes; in ASCII code twice as many characters. */
+  readonly size: number
 }
 /** Number of elements of the sibling field `of`: derived, invisible in the message. */
 export interface CountField extends Documented, Bounded {
   readonly kind: 'count'
   readonly width: Width
   readonly of: string
+  /** A number that stands for no elements beside 0; only read, never written. */
+  readonly noneToo?: number
 }
 /** Repeats a field of the request; derived, checked on reading, invisible in the message. */
 export interface EchoField extends Documented {
@@ -51,6 +61,8 @@ export interface EchoField extends Documented {
 export interface ValueField<C extends ValueCodec<any> = ValueCodec<any>> extends Documented {
   readonly kind: 'value'
   readonly codec: C
+  /** Makes the field optional in a message that is encoded. */
+  readonly default?: unknown
 }
 export interface BulkField extends Documented {
   readonly kind: 'words' | 'doubleWords' | 'bits' | 'bytes'
@@ -80,6 +92,7 @@ export interface EachField extends Documented {
 export type Field =
   | IntegerField
   | FixedField
+  | SpareField
   | CountField
   | EchoField
   | ValueField
@@ -92,10 +105,19 @@ export interface Shape {
   readonly [name: string]: Field
 }
 
-type Invisible = 'fixed' | 'count' | 'echo'
+/** Fields that are not in a message. */
+const INVISIBLE = ['fixed', 'spare', 'count', 'echo'] as const satisfies readonly Field['kind'][]
+type Invisible = (typeof INVISIBLE)[number]
+export type VisibleField = Exclude<Field, { kind: Invisible }>
+
+/** Whether a field is in the message: the others are written and checked by themselves. */
+export function isVisible(field: Field): field is VisibleField {
+  return !INVISIBLE.some((kind) => kind === field.kind)
+}
+
 type VisibleKey<S extends Shape> = { [K in keyof S]: S[K]['kind'] extends Invisible ? never : K }[keyof S]
 type OptionalKey<S extends Shape> = {
-  [K in VisibleKey<S>]: S[K] extends { readonly default: number } ? K : never
+  [K in VisibleKey<S>]: S[K] extends { readonly default: unknown } ? K : never
 }[VisibleKey<S>]
 
 type ValueOf<F extends Field> = F extends { kind: 'u8' | 'u16' | 'u32' }
@@ -145,11 +167,21 @@ export const u32 = <const O extends IntegerOptions = Record<never, never>>(optio
   ({ kind: 'u32', ...(options as O) }) as const
 export const fixed = (value: number, width: Width, doc?: string) =>
   ({ kind: 'fixed', value, width, ...(doc ? { doc } : {}) }) as const
-export const countOf = <const N extends string>(of: N, width: Width = 2, options: Bounded & Documented = {}) =>
-  ({ kind: 'count', of, width, ...options }) as const
+/** Characters that stand for themselves in ASCII code; `value` is what binary code has there. */
+export const fixedText = (ascii: string, value: number, width: Width, doc?: string) =>
+  ({ kind: 'fixed', value, width, ascii, ...(doc ? { doc } : {}) }) as const
+export const spare = (size: number, doc?: string) => ({ kind: 'spare', size, ...(doc ? { doc } : {}) }) as const
+export const countOf = <const N extends string>(
+  of: N,
+  width: Width = 2,
+  options: Bounded & Documented & Pick<CountField, 'noneToo'> = {},
+) => ({ kind: 'count', of, width, ...options }) as const
 export const echo = <const N extends string>(of: N) => ({ kind: 'echo', of }) as const
 export const value = <T>(codec: ValueCodec<T>, doc?: string) =>
   ({ kind: 'value', codec, ...(doc ? { doc } : {}) }) as const
+/** A value that may be left out of a message that is encoded. */
+export const optional = <T>(codec: ValueCodec<T>, fallback: T, doc?: string) =>
+  ({ kind: 'value', codec, default: fallback, ...(doc ? { doc } : {}) }) as const
 export const words = <const C extends Count>(count: C, doc?: string) =>
   ({ kind: 'words', count, ...(doc ? { doc } : {}) }) as const
 export const doubleWords = <const C extends Count>(count: C, doc?: string) =>

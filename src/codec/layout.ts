@@ -7,9 +7,11 @@ import {
   type Charset,
   type Field,
   type IntegerField,
+  isVisible,
   type MessageInput,
   type MessageOf,
   type Shape,
+  type VisibleField,
   WIDTH,
 } from './field'
 
@@ -49,10 +51,6 @@ function bagToWrite(shape: Shape, given: unknown): Bag {
   return message
 }
 
-function isVisible({ kind }: Field): boolean {
-  return kind !== 'count' && kind !== 'fixed' && kind !== 'echo'
-}
-
 function namesOf(shape: Shape): string {
   const names = Object.keys(shape).filter((name) => isVisible(shape[name] as Field))
   return names.length === 0 ? 'no fields' : names.join(', ')
@@ -81,7 +79,11 @@ function put(
       writer.uint(integerToWrite(field, given), WIDTH[field.kind])
       return
     case 'fixed':
-      writer.uint(field.value, field.width)
+      if (writer.ascii && field.ascii !== undefined) writer.text(field.ascii)
+      else writer.uint(field.value, field.width)
+      return
+    case 'spare':
+      writer.bytes(new Uint8Array(field.size))
       return
     case 'count':
       writer.uint(countToWrite(field, lengthOf(message[field.of], field.of)), field.width)
@@ -90,8 +92,7 @@ function put(
       putEcho(field.of, writer, context)
       return
     case 'value':
-      if (given === undefined || given === null) bad('is missing')
-      field.codec.write(writer, given)
+      putValue(field, given, writer)
       return
     case 'words':
       writer.words(arrayToWrite(field, name, given, message, context) as ArrayLike<number>)
@@ -119,6 +120,12 @@ function put(
     default:
       field satisfies never
   }
+}
+
+function putValue(field: Extract<Field, { kind: 'value' }>, given: unknown, writer: Writer): void {
+  const value = given === undefined ? field.default : given
+  if (value === undefined || value === null) bad('is missing')
+  field.codec.write(writer, value)
 }
 
 function putEcho(of: string, writer: Writer, context: Context | undefined): void {
@@ -274,16 +281,15 @@ function decodeBag(shape: Shape, reader: Reader, context: Context | undefined): 
       counts ??= {}
       counts[field.of] = readCount(field, reader)
     } else if (field.kind === 'fixed') readFixed(field, name, reader)
+    else if (field.kind === 'spare') readSpare(field.size, reader)
     else if (field.kind === 'echo') readEcho(field.of, name, reader, context)
     else message[name] = get(field, name, counts?.[name], message, reader, context)
   }
   return message
 }
 
-type Visible = Exclude<Field, { kind: 'count' | 'fixed' | 'echo' }>
-
 function get(
-  field: Visible,
+  field: VisibleField,
   name: string,
   counted: number | undefined,
   message: Bag,
@@ -331,6 +337,7 @@ function readInteger(field: IntegerField, reader: Reader): number {
 
 function readCount(field: Extract<Field, { kind: 'count' }>, reader: Reader): number {
   const read = reader.uint(field.width)
+  if (read === field.noneToo) return 0
   const count = read === 0 && field.zeroMeans !== undefined ? field.zeroMeans : read
   if (count < (field.min ?? 0) || count > (field.max ?? count)) {
     reader.fail('BAD_FIELD', `${count} ${field.of}, must be ${field.min ?? 0} to ${field.max ?? 'the width'}`)
@@ -342,15 +349,26 @@ function readCount(field: Extract<Field, { kind: 'count' }>, reader: Reader): nu
 }
 
 function readFixed(field: Extract<Field, { kind: 'fixed' }>, name: string, reader: Reader): void {
+  const { ascii } = field
+  if (reader.ascii && ascii !== undefined) {
+    const characters = reader.text(ascii.length)
+    if (characters !== ascii) reader.fail('BAD_FIELD', `${name} is fixed to "${ascii}", found others`)
+    return
+  }
   const found = reader.uint(field.width)
   if (found !== field.value) reader.fail('BAD_FIELD', `${name} is fixed to ${field.value}, found ${found}`)
+}
+
+function readSpare(size: number, reader: Reader): void {
+  if (reader.ascii) reader.text(2 * size)
+  else reader.bytes(size)
 }
 
 function readEcho(of: string, name: string, reader: Reader, context: Context | undefined): void {
   const { shape, message } = asked(context)
   const field = shape[of] as Field
   const found =
-    field.kind === 'count' ? readCount(field, reader) : get(field as Visible, of, undefined, {}, reader, undefined)
+    field.kind === 'count' ? readCount(field, reader) : get(field as VisibleField, of, undefined, {}, reader, undefined)
   if (!same(found, sentIn(field, of, message))) reader.fail('ECHO_MISMATCH', `${name} does not repeat the request`)
 }
 

@@ -33,12 +33,15 @@ function span(field: Field, name: string, known: Measured): number {
     case 'u32':
       return WIDTH[field.kind] * digits
     case 'fixed':
+      return known.ascii && field.ascii !== undefined ? field.ascii.length : field.width * digits
+    case 'spare':
+      return field.size * digits
     case 'count':
       return field.width * digits
     case 'echo':
       return spanOfEcho(field.of, known)
     case 'value':
-      return (field.codec as ValueCodec<unknown>).size(known.ascii, known.form, own)
+      return (field.codec as ValueCodec<unknown>).size(known.ascii, known.form, own ?? field.default)
     case 'words':
     case 'doubleWords':
     case 'bits':

@@ -4,6 +4,8 @@ import type { Declaration, MessageInput, MessageOf, Named } from '../codec/codec
 export interface MelsecDeclaration extends Declaration {
   /** `none`: the subcommand does not depend on devices and is 0000. */
   readonly unit: 'bit' | 'word' | 'none'
+  /** Subcommands that are about something else than devices, when it is not 0000 alone: of files, how names are sent. */
+  readonly subcommands?: readonly number[]
 }
 
 export type Command<D extends MelsecDeclaration = MelsecDeclaration, N extends string = string> = Named<D, N>

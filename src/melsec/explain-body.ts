@@ -8,7 +8,7 @@ import { devicesOf as usedDevices } from './device-uses'
 import { errorInformation } from './error-information'
 import { commandFields, commandText, describeHead, subcommandText } from './explain-head'
 import { describeValue, devicesOf, type Placed, splitRow, summaryOf, type WordsFor } from './explain-values'
-import { FORM_BITS, readSubcommand, subcommandOf } from './form'
+import { codecBits, findCommand } from './form'
 import type { DeviceForm, Profile } from './profile'
 
 type Bag = Readonly<Record<string, unknown>>
@@ -33,18 +33,13 @@ export interface KnownRequest {
 interface Recognised {
   readonly command: Command
   readonly form: DeviceForm
+  readonly subcommand: number
 }
 
 /** The command that a command and a subcommand number name. */
 function recognise({ commands, profile }: Settings, code: number, subcommand: number): Recognised | undefined {
-  const device = readSubcommand(subcommand)
-  for (const command of Object.values(commands)) {
-    if (command.code !== code) continue
-    if (command.unit === 'none') {
-      if (subcommand === subcommandOf(command, 'short', profile)) return { command, form: 'short' }
-    } else if (device?.unit === command.unit) return { command, form: device.form }
-  }
-  return undefined
+  const found = findCommand(commands, profile, code, subcommand)
+  return found === undefined ? undefined : { ...found, subcommand }
 }
 
 /** Digits of X, Y and ZR in ASCII code are a setting of the port: bits of the value codecs. */
@@ -60,7 +55,7 @@ export function readRequestBody(body: Buffer, settings: Settings): KnownRequest 
   const head = annotate(commandFields, body, { code })
   const found = recognise(settings, Number(head.message.command), Number(head.message.subcommand))
   if (head.fault !== undefined || found === undefined) return undefined
-  const form = FORM_BITS[found.form] | digitBits(settings)
+  const form = codecBits(found.command, found.form, found.subcommand) | digitBits(settings)
   const data: Annotation = annotate(found.command.request, body.subarray(head.used), { code, form })
   return data.fault === undefined ? { command: found.command, form, message: data.message } : undefined
 }
@@ -96,8 +91,12 @@ function explainUnknown(explainer: Explainer, start: number, code: number, subco
   return { command: undefined, title: name, secret: false }
 }
 
-function explainKnown(explainer: Explainer, settings: Settings, { command, form }: Recognised): ExplainedBody {
-  const bits = FORM_BITS[form] | digitBits(settings)
+function explainKnown(
+  explainer: Explainer,
+  settings: Settings,
+  { command, form, subcommand }: Recognised,
+): ExplainedBody {
+  const bits = codecBits(command, form, subcommand) | digitBits(settings)
   const message = readData(explainer, settings, command.request, { form: bits })
   const summary = summaryOf(command, message, settings)
   noteUncertainDigits(explainer, settings, command, message)

@@ -7,6 +7,7 @@ import { deviceInfo } from './device'
 import { accessProblem } from './device-access'
 import { FORM_EXTENDED, FORM_LONG, formNeededBy, formProblem } from './device-codec'
 import type { FoundDevice } from './device-uses'
+import { FILE_BITS } from './file-codec'
 import { type DeviceForm, exclusionOf, lackOf, type Profile } from './profile'
 
 /** Subcommand bits of each form. */
@@ -23,12 +24,59 @@ const FORM_OF_BITS: ReadonlyMap<number, DeviceForm> = new Map(
   Object.entries(FORM_BITS).map(([form, bits]) => [bits, form as DeviceForm]),
 )
 
-/** Subcommand of a command in a form: bit 0 unit, bit 1 long form, bit 7 extension (SLMP reference manual 5.1). */
-export function subcommandOf(command: Command, form: DeviceForm, profile: Profile): number {
+/** Subcommands of a command in a form on a family, the usual one first. */
+function subcommandsOf(command: Command, form: DeviceForm, profile: Profile): readonly number[] {
   const override = profile.subcommands[command.name as CommandName]
-  if (override !== undefined) return override.value
-  if (command.unit === 'none') return 0
-  return FORM_BITS[form] | (command.unit === 'bit' ? BIT_UNIT : 0)
+  if (override !== undefined) return [override.value]
+  if (command.unit !== 'none') return [FORM_BITS[form] | (command.unit === 'bit' ? BIT_UNIT : 0)]
+  const { subcommands } = command
+  if (subcommands === undefined) return [0]
+  // A family without the command still tells which one it lacks.
+  const taken = profile.files.subcommands.filter((subcommand) => subcommands.includes(subcommand))
+  return taken.length > 0 ? taken : subcommands
+}
+
+/**
+ * Subcommand of a command in a form: bit 0 unit, bit 1 long form, bit 7 extension (SLMP reference manual 5.1); of file
+ * commands as the profile has it, or the one that is wanted.
+ * @throws RequestError UNSUPPORTED: this family does not have the wanted one.
+ */
+export function subcommandOf(command: Command, form: DeviceForm, profile: Profile, wanted?: number): number {
+  const taken = subcommandsOf(command, form, profile)
+  const [usual = 0] = taken
+  if (wanted === undefined || taken.includes(wanted)) return wanted ?? usual
+  const known = taken.map((subcommand) => hex4(subcommand)).join(' or ')
+  throw new RequestError(
+    'UNSUPPORTED',
+    `${command.title} on ${profile.title} takes subcommand ${known}, not ${hex4(wanted)}.`,
+    'subcommand',
+  )
+}
+
+function hex4(value: unknown): string {
+  return typeof value === 'number' ? value.toString(16).toUpperCase().padStart(4, '0') : String(value)
+}
+
+/** What the value codecs of a request and its answer go by. */
+export function codecBits(command: Command, form: DeviceForm, subcommand: number): number {
+  return FORM_BITS[form] | (command.subcommands === undefined ? 0 : subcommand & FILE_BITS)
+}
+
+/** Which of the declared commands a command and a subcommand number name; one rule for whoever reads requests. */
+export function findCommand(
+  list: Readonly<Record<string, Command>>,
+  profile: Profile,
+  code: number,
+  subcommand: number,
+): { readonly command: Command; readonly form: DeviceForm } | undefined {
+  const device = readSubcommand(subcommand)
+  for (const command of Object.values(list)) {
+    if (command.code !== code) continue
+    if (command.unit === 'none') {
+      if (subcommandsOf(command, 'short', profile).includes(subcommand)) return { command, form: 'short' }
+    } else if (device?.unit === command.unit) return { command, form: device.form }
+  }
+  return undefined
 }
 
 /** The unit and form a received subcommand says; `undefined` when no command has such a subcommand. */

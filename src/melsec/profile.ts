@@ -95,6 +95,23 @@ export interface DeviceRanges {
   readonly source: string
 }
 
+/** A memory with files. */
+export interface Drive {
+  readonly number: number
+  /** The manual's name. */
+  readonly title: string
+  /** It stands for another drive. */
+  readonly same?: number
+}
+
+/** Files and how they are asked for. Empty on a family without file commands. */
+export interface FileFacts {
+  /** Subcommands of the file commands, the usual one first: 0000, 0004, or 0040 with long names and directories. */
+  readonly subcommands: readonly number[]
+  readonly drives: readonly Drive[]
+  readonly source: string
+}
+
 export interface Subcommand {
   readonly value: number
   readonly source: string
@@ -136,6 +153,7 @@ export interface Profile {
   /** Subcommands other than the computed ones. */
   readonly subcommands: Readonly<Partial<Record<CommandName, Subcommand>>>
   readonly remote: RemoteFacts
+  readonly files: FileFacts
   /** What people should know about ports, settings and oddities. */
   readonly notes: readonly string[]
   /** Where the single figures above come from. */

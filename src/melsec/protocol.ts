@@ -9,7 +9,8 @@ import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf } from './device-uses'
 import { explainEndCode } from './end-code'
 import { type ErrorInformation, errorInformation } from './error-information'
-import { chooseForm, FORM_BITS, readSubcommand, subcommandOf } from './form'
+import { checkDrives } from './file-check'
+import { chooseForm, codecBits, FORM_BITS, findCommand, subcommandOf } from './form'
 import { checkLimits } from './limit'
 import type { DeviceForm, Profile } from './profile'
 
@@ -41,6 +42,8 @@ export interface MelsecProtocolOptions<Head> {
 export interface ExchangeOptions {
   /** Use this form of the device specification instead of the computed one. */
   readonly form?: DeviceForm
+  /** File commands: use this subcommand instead of the profile's usual one, e.g. 0x0004. */
+  readonly subcommand?: number
   /** The request a response refers to, when it is another's: the registration, for Execute Monitor. */
   readonly context?: Bag
 }
@@ -119,8 +122,8 @@ export class MelsecProtocol<Head> {
     const bag: Bag = message
     const form = this.#formOf(command, bag, options)
     checkLimits(this.profile, command.name as CommandName, form, this.code, bag)
-    const bits = FORM_BITS[form] | this.#digitBits
-    const subcommand = subcommandOf(command, form, this.profile)
+    const subcommand = subcommandOf(command, form, this.profile, options.subcommand)
+    const bits = codecBits(command, form, subcommand) | this.#digitBits
     const writer = writerOf(this.code, bits)
     writer.uint(command.code, 2)
     writer.uint(subcommand, 2)
@@ -128,6 +131,7 @@ export class MelsecProtocol<Head> {
     const body = writer.take()
     // What was sent counts, not an object that the caller may change before the answer comes.
     const sent: Bag = decode(command.request, readerOf(this.code, body.subarray(COMMAND_SIZE[this.code]), bits))
+    checkDrives(this.profile, command, sent)
     const context = this.#contextOf(command, sent, options)
     return {
       title: command.title,
@@ -220,25 +224,14 @@ export class MelsecProtocol<Head> {
     const head = readerOf(this.code, frame.body)
     const code = head.uint(2)
     const subcommand = head.uint(2)
-    const known = this.#commandOf(code, subcommand)
+    const known = findCommand(commands, this.profile, code, subcommand)
     if (known === undefined) return { unknown: { command: code, subcommand } }
-    const reader = readerOf(this.code, frame.body.subarray(head.position), FORM_BITS[known.form] | this.#digitBits)
-    const message = decode(known.command.request, reader)
+    const { command, form } = known
+    const bits = codecBits(command, form, subcommand) | this.#digitBits
+    const reader = readerOf(this.code, frame.body.subarray(head.position), bits)
+    const message = decode(command.request, reader)
     reader.end()
-    return { ...known, subcommand, message }
-  }
-
-  #commandOf(code: number, subcommand: number): { command: Command; name: CommandName; form: DeviceForm } | undefined {
-    const device = readSubcommand(subcommand)
-    for (const [name, command] of Object.entries<Command>(commands)) {
-      if (command.code !== code) continue
-      const commandName = name as CommandName
-      if (command.unit === 'none') {
-        if (subcommand === subcommandOf(command, 'short', this.profile))
-          return { command, name: commandName, form: 'short' }
-      } else if (device?.unit === command.unit) return { command, name: commandName, form: device.form }
-    }
-    return undefined
+    return { command, form, name: command.name as CommandName, subcommand, message }
   }
 
   /** The PLC's side: the data of the answer. `context` is the request, or for Execute Monitor the registration. */
@@ -247,8 +240,8 @@ export class MelsecProtocol<Head> {
     response: Bag,
     context: Bag = request.message,
   ): Buffer {
-    const { command, form } = request
-    const writer = writerOf(this.code, FORM_BITS[form] | this.#digitBits)
+    const { command, form, subcommand } = request
+    const writer = writerOf(this.code, codecBits(command, form, subcommand) | this.#digitBits)
     const shape = command.context === undefined ? command.request : commands[command.context as CommandName].request
     encode(command.response, response, writer, { shape, message: context })
     return writer.take()

@@ -158,6 +158,22 @@ export const handlers: { readonly [N in CommandName]: Handler<N> } = {
     extendUnits.write(memory, moduleNumber, address, data)
     return {}
   },
+  readDirectory: noDrive,
+  searchFile: noDrive,
+  newFile: noDrive,
+  deleteFile: noDrive,
+  copyFile: noDrive,
+  changeFileState: noDrive,
+  changeFileDate: noDrive,
+  openFile: noDrive,
+  readFile: noDrive,
+  writeFile: noDrive,
+  closeFile: noDrive,
+}
+
+/** No drives yet. */
+function noDrive(): never {
+  throw new Refusal(0x4021, 'there is no such drive')
 }
 
 function readRandom(memory: DeviceMemory, { words, doubleWords }: RandomDevices) {

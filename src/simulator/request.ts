@@ -2,10 +2,9 @@
 import { decode, type Reader, readerOf, type Shape, type ValueCodec } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { RequestFrame } from '../link/link'
-import type { Command } from '../melsec/command'
 import { type CommandName, commands } from '../melsec/commands/commands'
 import { deviceAddress } from '../melsec/device-codec'
-import { FORM_BITS, readSubcommand } from '../melsec/form'
+import { codecBits, findCommand } from '../melsec/form'
 import type { Head1e } from '../melsec/frame-1e'
 import { limitsOf } from '../melsec/limit'
 import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
@@ -88,23 +87,16 @@ function endCodeOf(
   const { refusals } = protocol.profile
   if (error.code === 'BAD_DIGIT') return requestErrors.asciiConversion
   if (error.code === 'TRUNCATED' || error.code === 'TRAILING') return refusals.length
-  const found = commandOf(code, subcommand)
+  const found = findCommand(commands, protocol.profile, code, subcommand)
   if (found === undefined) return requestErrors.content
-  const reader = readerOf(protocol.code, body.subarray(protocol.code === 'ascii' ? 8 : 4), FORM_BITS[found.form])
+  const bits = codecBits(found.command, found.form, subcommand)
+  const reader = readerOf(protocol.code, body.subarray(protocol.code === 'ascii' ? 8 : 4), bits)
   const culprit = culpritOf(found.command.request, reader)
   if (culprit === deviceAddress) return refusals.deviceName
   if (culprit === setReset) return requestErrors.bitData
   // The other fields of commands that have limits are points and counts: here one of them is 0.
   const [limit] = limitsOf(protocol.profile, found.command.name as CommandName, found.form, protocol.code)
   return limit?.endCode ?? requestErrors.content
-}
-
-function commandOf(code: number, subcommand: number) {
-  const device = readSubcommand(subcommand)
-  const command = Object.values<Command>(commands).find(
-    (candidate) => candidate.code === code && (candidate.unit === 'none' || candidate.unit === device?.unit),
-  )
-  return command === undefined ? undefined : { command, form: device?.form ?? 'short' }
 }
 
 /** The value codec that cannot read its field, if it is one of them. */

@@ -78,7 +78,7 @@ function uncovered(rows: readonly AnnotatedRow[], length: number, base = 0): str
 }
 
 /** Fields that the message does not show. */
-const INVISIBLE = ['fixed', 'count', 'echo']
+const INVISIBLE = ['fixed', 'spare', 'count', 'echo']
 
 describe.each(['request', 'response'] as const)('%s', (side) => {
   test.each(cases)('$name in $code code: rows cover every byte once, with the values decode gives', (given) => {

@@ -1,11 +1,13 @@
 /** Messages of any declaration, made from its shapes: what the property tests run over. */
 import fc from 'fast-check'
-import type { Context, Field, Shape } from '../../src/codec/codec'
+import type { Context, Shape } from '../../src/codec/codec'
+import { isVisible, type VisibleField } from '../../src/codec/field'
 import { jwAddress } from '../../src/jw/operand'
 import { aCompatibleDevice } from '../../src/melsec/a-compatible-device'
 import { deviceAddress } from '../../src/melsec/device-codec'
 import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label-codec'
 import { setReset } from '../../src/melsec/set-reset'
+import { fileValues } from '../support/arbitrary-file'
 
 type Bag = Record<string, unknown>
 type Generate = fc.GeneratorValue
@@ -28,6 +30,7 @@ const VALUES: ReadonlyMap<object, fc.Arbitrary<unknown>> = new Map<object, fc.Ar
   [deviceAddress, device(['D', 'M', 'X', 'Y', 'W', 'ZR', 'TN', 'SB'])],
   [aCompatibleDevice, device(['D', 'M', 'X', 'R', 'TN'])],
   [setReset, fc.boolean()],
+  ...fileValues(0),
   [labelName, fc.string({ minLength: 1, maxLength: 20, unit: 'binary' })],
   [labelData, fc.array(fc.nat(0xffff), { maxLength: 9 })],
   [labelArea, area],
@@ -54,17 +57,15 @@ const MOST = 20
 export function messageOf(shape: Shape, generate: Generate, context?: Context): Bag {
   const message: Bag = {}
   for (const [name, field] of Object.entries(shape)) {
-    if (field.kind === 'fixed' || field.kind === 'count' || field.kind === 'echo') continue
+    if (!isVisible(field)) continue
     message[name] = valueFor(name, field, shape, message, generate, context)
   }
   return message
 }
 
-type Visible = Exclude<Field, { kind: 'fixed' | 'count' | 'echo' }>
-
 function valueFor(
   name: string,
-  field: Visible,
+  field: VisibleField,
   shape: Shape,
   message: Bag,
   generate: Generate,

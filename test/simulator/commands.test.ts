@@ -4,6 +4,7 @@ import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { modelOf } from '../../src/melsec/model-code'
 import { type FrameName, lackOf, type Profile, profileIds, profiles } from '../../src/melsec/profile'
 import type { SimulatedLabels } from '../../src/simulator/labels'
+import { fileRefusals, fileScenarios } from './file-scenarios'
 import { type Joined, join, type SlmpFrame } from './support'
 
 const M100 = { device: 'M', number: 100 } as const
@@ -214,6 +215,7 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     const head = { device: 'G', number: 1, extension: { kind: 'module', unit: 3 } } as const
     expect(asker.ask(commands.readWords, { head, points: 2 })).toEqual({ values: [0x1234, 0] })
   },
+  ...fileScenarios,
 }
 
 const labels: SimulatedLabels = {
@@ -282,6 +284,7 @@ describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) =
         readMemory: () => asker.endCode(commands.readMemory, { address: 0, points: 1 }),
         writeMemory: () => asker.endCode(commands.writeMemory, { address: 0, values: [0] }),
         readExtendUnit: () => asker.endCode(commands.readExtendUnit, { address: 0, byteCount: 2, moduleNumber: 0 }),
+        ...fileRefusals(asker),
         writeExtendUnit: () =>
           asker.endCode(commands.writeExtendUnit, { address: 0, moduleNumber: 0, data: Buffer.of(0, 0) }),
       }

@@ -1,6 +1,7 @@
 /** Messages of any declaration, made from its shapes: what the property tests run over. */
 import fc from 'fast-check'
 import type { Context, Field, Shape } from '../../src/codec/codec'
+import { isVisible, type VisibleField } from '../../src/codec/field'
 import { jwAddress } from '../../src/jw/operand'
 import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible-device'
 import { devices } from '../../src/melsec/device'
@@ -8,6 +9,7 @@ import { deviceAddress, FORM_EXTENDED, FORM_XY_OCTAL, formProblem } from '../../
 import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label-codec'
 import { setReset } from '../../src/melsec/set-reset'
 import { anyAddress } from '../melsec/device-bytes'
+import { fileCodecs, fileValues } from './arbitrary-file'
 
 export type Bag = Record<string, unknown>
 
@@ -57,6 +59,10 @@ const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
         .filter(({ number }) => !ascii || (form & FORM_XY_OCTAL) === 0 || number < 8 ** 8),
   ],
   [setReset, () => fc.boolean()],
+  ...fileCodecs.map((codec): [object, Values] => [
+    codec,
+    ({ form }) => fileValues(form).get(codec) as fc.Arbitrary<unknown>,
+  ]),
   [labelName, () => fc.string({ minLength: 1, maxLength: 20, unit: 'binary' })],
   [labelData, () => fc.array(fc.nat(0xffff), { maxLength: 9 })],
   [labelArea, () => area],
@@ -111,8 +117,6 @@ function valuesOf(shape: Shape, wanted: Wanted): Map<object, fc.Arbitrary<unknow
   return found
 }
 
-type Visible = Exclude<Field, { kind: 'fixed' | 'count' | 'echo' }>
-
 class Maker {
   constructor(
     private readonly generate: fc.GeneratorValue,
@@ -123,13 +127,13 @@ class Maker {
   message(shape: Shape): Bag {
     const message: Bag = {}
     for (const [name, field] of Object.entries(shape)) {
-      if (field.kind === 'fixed' || field.kind === 'count' || field.kind === 'echo') continue
+      if (!isVisible(field)) continue
       message[name] = this.value(name, field, shape, message)
     }
     return message
   }
 
-  private value(name: string, field: Visible, shape: Shape, message: Bag): unknown {
+  private value(name: string, field: VisibleField, shape: Shape, message: Bag): unknown {
     switch (field.kind) {
       case 'u8':
       case 'u16':

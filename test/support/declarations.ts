@@ -2,8 +2,11 @@
 import type { DataCode, Declaration, Shape } from '../../src/codec/codec'
 import { jwCommands } from '../../src/jw/commands'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible'
+import type { MelsecDeclaration } from '../../src/melsec/command'
 import { commands } from '../../src/melsec/commands/commands'
+import { fileCommands } from '../../src/melsec/commands/file'
 import { FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL, FORM_ZR_HEX } from '../../src/melsec/device-codec'
+import { fileCommandNames } from '../../src/melsec/profiles/files'
 
 export interface DeclarationCase {
   /** e.g. `melsec readWords ascii` */
@@ -23,11 +26,21 @@ interface Family {
 const deviceForms = [0, FORM_LONG, FORM_EXTENDED, FORM_EXTENDED | FORM_LONG]
 const digits = [0, FORM_XY_OCTAL, FORM_ZR_HEX, FORM_XY_OCTAL | FORM_ZR_HEX]
 
+/** File commands: their form is their subcommand, all of those that any of them takes. */
+const fileForms = [...new Set(fileCommandNames.flatMap((name) => subcommandsOf(commands[name])))]
+
+function subcommandsOf(command: MelsecDeclaration): readonly number[] {
+  return command.subcommands ?? [0]
+}
+
+const deviceCommands = Object.fromEntries(Object.entries(commands).filter(([name]) => !(name in fileCommands)))
+
 const families: Readonly<Record<string, Family>> = {
   melsec: {
-    list: commands,
+    list: deviceCommands,
     forms: { binary: deviceForms, ascii: deviceForms.flatMap((form) => digits.map((digit) => form | digit)) },
   },
+  files: { list: fileCommands, forms: { binary: fileForms, ascii: fileForms } },
   '1E': { list: aCompatibleCommands, forms: { binary: [0], ascii: [0, FORM_XY_OCTAL] } },
   jw: { list: jwCommands, forms: { binary: [0] } },
 }

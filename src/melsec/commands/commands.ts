@@ -1,5 +1,6 @@
 import { controlCommands } from './control'
 import { deviceCommands } from './device'
+import { fileCommands } from './file'
 import { labelCommands } from './label'
 import { memoryCommands } from './memory'
 import { passwordCommands } from './password'
@@ -11,6 +12,7 @@ export const commands = {
   ...labelCommands,
   ...passwordCommands,
   ...memoryCommands,
+  ...fileCommands,
 } as const
 
 export type Commands = typeof commands

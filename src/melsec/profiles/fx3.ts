@@ -1,5 +1,6 @@
 import { fx3Windows } from '../a-compatible-rules'
 import type { Profile } from '../profile'
+import { noFileFacts } from './files'
 import { profileOver1e } from './over-1e'
 
 const manual = 'background: FX3U-ENET-ADP user’s manual, chapter 7'
@@ -68,6 +69,7 @@ export const fx3: Profile = profileOver1e(
     },
     subcommands: {},
     remote: { clearModes: [0], reset: 'not by a 1E frame', source: 'FX5 communication manual 39.3' },
+    files: noFileFacts,
     notes: [
       'Special relays and registers M8000 to M8511 and D8000 to D8511 are also called SM8000 and SD8000 here, because the iQ-F calls them so.',
       'The counters of 32 bits C200 to C255 are LCN0 to LCN55 (value) and LCS0 to LCS55 (contact).',

@@ -1,4 +1,5 @@
 import type { Profile } from '../profile'
+import { anyFiles } from './files'
 import { iqF } from './iq-f'
 import { iqR } from './iq-r'
 import { passwordLimit } from './limits'
@@ -28,6 +29,7 @@ export const generic: Profile = {
     recommended: { from: 250, to: 10_000 },
     source: '0 is taken by every family, FX5 CPU modules take nothing else',
   },
+  files: anyFiles,
   notes: [
     'Choose the profile of your PLC when you know it: it knows the numbering of X and Y, the limits and what the PLC lacks.',
   ],

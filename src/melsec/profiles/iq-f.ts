@@ -1,5 +1,6 @@
 import type { LimitRule } from '../limit'
 import type { DeviceForm, Profile } from '../profile'
+import { noFileFacts, noFiles } from './files'
 import { blockCounts, passwordLimit, randomWriteWeights, writtenBlockWeights } from './limits'
 import { noMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
@@ -93,6 +94,7 @@ export const iqF: Profile = {
       source: 'command list 38.1 has no 0801/0802; measured by others: C059',
     })),
     ...noLabels('command list 38.1 has no label commands'),
+    ...noFiles('command list 38.1 has no file commands'),
     ...noMemoryCommands('command list 38.1 has no 0613, 1613, 0601 and 1601'),
   ],
   doubtful: [],
@@ -177,6 +179,7 @@ export const iqF: Profile = {
     reset: 'only in STOP, and only if the CPU parameter "Remote Reset" is enabled; may not be answered',
     source: '38.3 Remote RUN and Remote Reset',
   },
+  files: noFileFacts,
   notes: [
     'SLMP needs an entry in GX Works3: Module Parameter, Ethernet Port, External Device Configuration, "SLMP Connection Module", with protocol and port number.',
     'At most 8 connections, shared with other protocols; own port 1 to 5548 or 5570 to 65534.',

@@ -1,4 +1,5 @@
 import type { Profile } from '../profile'
+import { iqRFiles } from './files'
 import { iqRLimits } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
 import { pointsOf } from './ranges'
@@ -103,6 +104,7 @@ export const iqR: Profile = {
     reset: 'only in STOP, and only if the CPU parameter "Remote Reset" is enabled; no answer when it succeeds',
     source: 'SLMP reference manual 5.6',
   },
+  files: iqRFiles,
   notes: [
     'SLMP needs an entry in GX Works3: "External Device Configuration" of the Ethernet port, with protocol, port number and "Enable Online Change" for writing.',
     'The built-in Ethernet port reaches its own station only; other networks need an RJ71EN71 or a network module (SLMP reference manual 2.3).',

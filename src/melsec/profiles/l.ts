@@ -1,4 +1,5 @@
 import type { Profile } from '../profile'
+import { lFiles } from './files'
 import { q } from './q'
 
 /** A MELSEC-L CPU answers as a MELSEC-Q CPU does; what differs is written here. */
@@ -22,6 +23,7 @@ export const l: Profile = {
     source:
       '3.3: LJ71E71-100 1 + 57 / connections; the CPUs own port is not in the list. TCP: one at a time, so that no PLC can merge two requests',
   },
+  files: lFiles,
   notes: [
     'Built-in port: PLC Parameter, Built-in Ethernet Port Setting, Open Setting, "MC Protocol", with the port number; tick "Enable online change" for writing.',
     'Built-in ports refuse module access (U\\G) with C070; the LJ71E71-100 has it.',

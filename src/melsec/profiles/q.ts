@@ -1,5 +1,6 @@
 import type { DeviceName } from '../device'
 import type { Lack, Profile } from '../profile'
+import { qFiles } from './files'
 import { qAndLLimits } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
@@ -136,6 +137,7 @@ export const q: Profile = {
     reset: 'only in STOP, and only if the PLC parameter "Remote Reset" is enabled; no answer when it succeeds',
     source: 'SLMP reference manual 5.6',
   },
+  files: qFiles,
   notes: [
     'Built-in port: PLC Parameter, Built-in Ethernet Port Setting, Open Setting, "MC Protocol", with the port number; tick "Enable online change" for writing.',
     'QJ71E71-100: UDP port 5000 is open without a setting ("Auto open UDP port"), as long as it is not assigned otherwise.',
