@@ -2,8 +2,9 @@
 
 import { withoutSecrets } from '../codec/annotate'
 import type { Effect } from '../codec/codec'
-import { Responder } from '../link/link'
+import { type Framing, Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
+import { writeOnDemand } from '../melsec/on-demand'
 import type { FrameName } from '../melsec/profile'
 import { ownStation } from '../melsec/route'
 import type { Clock } from '../transport/clock'
@@ -12,6 +13,7 @@ import { type AnyHead, anyFrame } from './any-frame'
 import { routeRefusal } from './check'
 import type { FaultSubject, Faults } from './faults'
 import type { Call } from './handlers'
+import { unaskedHead } from './on-demand'
 import type { Answer, Plc } from './plc'
 import type { RemotePassword } from './port-lock'
 import { Refusal, requestErrors } from './refusal'
@@ -75,6 +77,14 @@ export class Connection {
   readonly #held: HeldAnswers
   #merging: Buffer[] = []
   #requests = 0
+  readonly #framing: Framing<AnyHead>
+  /** Of the last request. */
+  #spoken: FrameName | undefined
+  /** An answer is going out in pieces: what is unasked comes behind it. */
+  #inPieces = false
+  #unasked: Buffer[] = []
+  #unaskedSerial = 0
+  #ended = false
 
   constructor(
     shared: Shared,
@@ -89,8 +99,8 @@ export class Connection {
     this.#call = shared.plc.callOf({ owner, monitored: undefined, lock: shared.password.lockOf(kind) })
     this.since = shared.clock.time()
     const { slmp, aCompatible } = shared.ports
-    const framing = anyFrame(shared.frames, slmp.code, (bytes) => this.#unreadable(bytes), aCompatible.lengthOf)
-    this.#responder = new Responder(framing, kind, () => undefined)
+    this.#framing = anyFrame(shared.frames, slmp.code, (bytes) => this.#unreadable(bytes), aCompatible.lengthOf)
+    this.#responder = new Responder(this.#framing, kind, () => undefined)
     const { datagramBuffer } = shared
     this.#sequence = new Sequence(shared.clock, (change) => {
       if (kind === 'datagram') datagramBuffer.used += change
@@ -110,10 +120,26 @@ export class Connection {
 
   /** After the connection has ended, or to end it. */
   end(how?: 'close' | 'reset'): void {
+    this.#ended = true
     this.#sequence.close()
     if (this.kind === 'stream') this.#held.length = 0
     if (how === 'close') this.#peer.close()
     if (how === 'reset') this.#peer.reset()
+  }
+
+  /**
+   * Sends On-demand in the frame of the last request.
+   * @returns `false` while that is not known, where the frame cannot carry it (1E), and when the connection has ended
+   */
+  sendOnDemand(data: Uint8Array): boolean {
+    const head = this.#spoken === undefined ? undefined : unaskedHead(this.#spoken)
+    if (head === undefined || this.#ended) return false
+    const body = writeOnDemand(this.#shared.ports.slmp.code, data)
+    const bytes = this.#framing.request.write(head, this.#unaskedSerial++ & 0xffff, body)
+    this.#shared.counters.onDemands++
+    if (this.#inPieces) this.#unasked.push(bytes)
+    else this.#send(bytes)
+    return true
   }
 
   #receive(bytes: Buffer): void {
@@ -137,6 +163,7 @@ export class Connection {
     const { request, subcommand } = received
     const command = request instanceof Refusal ? undefined : request.name
     const work: Work = { received, command, subcommand, connection: this.id, remote: this.remote, sending: false }
+    this.#spoken = received.frame.head.frame
     this.#requests++
     counters.requests++
     counters.discarded += this.#sequence.drop((older) => !older.sending && faults.take('coalesce', older) !== undefined)
@@ -264,8 +291,18 @@ export class Connection {
   }
 
   #sending(pieces: readonly Buffer[], work: Work): readonly Step[] {
-    const { faults } = this.#shared
     work.sending = true
+    this.#inPieces = true
+    return [...this.#piecesOf(pieces, work), acting(() => this.#sent())]
+  }
+
+  #sent(): void {
+    this.#inPieces = false
+    for (const bytes of this.#unasked.splice(0)) this.#send(bytes)
+  }
+
+  #piecesOf(pieces: readonly Buffer[], work: Work): readonly Step[] {
+    const { faults } = this.#shared
     const [first = Buffer.alloc(0), ...rest] = pieces
     const end = faults.take('disconnect', work)
     if (end !== undefined) return [this.#step(first.subarray(0, end.at)), { wait: ARRIVAL }, this.#ending(end.how)]

@@ -18,12 +18,14 @@ import type { ErrorLog } from './error-log'
 import { Emitter } from './events'
 import { type FaultSubject, Faults } from './faults'
 import type { ProgramLabels } from './labels'
+import { chosen, type OnDemandData, type OnDemandOptions, onDemandBytes } from './on-demand'
 import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
 import { Plc } from './plc'
 import { RemotePassword } from './port-lock'
 import type { ProgramMemory } from './program-memory'
 import { newCounters, type SimulatorStatistics } from './statistics'
 
+export type { OnDemandData, OnDemandOptions } from './on-demand'
 export type { PlcSimulatorOptions } from './options'
 
 /** Where a port listens. */
@@ -102,6 +104,15 @@ export interface PlcSimulator {
   read(item: string, format?: ValueFormat): PlcValue
   /** `memory.write`: `plc.write('D100:REAL', 1.5)` */
   write(item: string, value: PlcValue, format?: ValueFormat): void
+  /**
+   * Sends data unasked (On-demand, 2101), as a program in the PLC does, to every client or to the connections chosen: in
+   * the frame of the client's last request. Who has asked nothing yet and who speaks 1E gets nothing; over UDP each port a
+   * client has used in the last minute counts as one.
+   * @returns to how many it was sent
+   * @throws RequestError for data that no frame can carry and connections that are not there; then nothing was sent
+   * @example plc.sendOnDemand([1, 2, 3])
+   */
+  sendOnDemand(data: OnDemandData, options?: OnDemandOptions): number
   /** Calls `listener` on every event; the returned function ends it. */
   on<E extends keyof SimulatorEvents>(event: E, listener: (event: SimulatorEvents[E]) => void): () => void
   /** Ends everything; no socket or timer is left when it resolves. */
@@ -219,6 +230,14 @@ class Simulator implements PlcSimulator {
 
   write(item: string, value: PlcValue, format?: ValueFormat): void {
     this.memory.write(item, value, format)
+  }
+
+  sendOnDemand(data: OnDemandData, options: OnDemandOptions = {}): number {
+    this.#refuseClosed()
+    const bytes = onDemandBytes(data, this.#settings.code)
+    let told = 0
+    for (const connection of chosen(this.#connections.values(), options)) if (connection.sendOnDemand(bytes)) told++
+    return told
   }
 
   on<E extends keyof SimulatorEvents>(event: E, listener: (event: SimulatorEvents[E]) => void): () => void {

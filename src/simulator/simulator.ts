@@ -23,6 +23,8 @@ export {
   type ConnectOptions,
   createPlcSimulator,
   type Endpoint,
+  type OnDemandData,
+  type OnDemandOptions,
   type PlcSimulator,
   type SimulatorEvents,
   type WriteEvent,

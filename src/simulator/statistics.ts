@@ -13,6 +13,8 @@ export interface SimulatorStatistics {
   readonly unreadable: number
   /** Requests thrown away: UDP receive buffer full, or the fault `coalesce`. */
   readonly discarded: number
+  /** On-demand frames sent, one for each client. */
+  readonly onDemands: number
   readonly bytesReceived: number
   readonly bytesSent: number
 }
@@ -28,6 +30,7 @@ export function newCounters(): Counters {
     refusals: 0,
     unreadable: 0,
     discarded: 0,
+    onDemands: 0,
     bytesReceived: 0,
     bytesSent: 0,
   }
