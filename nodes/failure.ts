@@ -1,8 +1,9 @@
 // What a node hands to done(): an error that Node-RED carries to Catch nodes without losing what the plant must know.
 
-import type { PlcErrorCode } from '../src/index'
+import type { Language, PlcErrorCode } from '../src/index'
 import {
   ConnectionError,
+  commands,
   EndCodeError,
   explainEndCode,
   type Outcome,
@@ -28,6 +29,8 @@ export interface FailureDetails {
   readonly outcome: Outcome
   /** The number the PLC sent, e.g. 0xC056. */
   readonly endCode?: number
+  /** Of a 1E frame with end code 5BH: the code behind it. */
+  readonly abnormalCode?: number
   /** What the end code means and what to do, in the language of the runtime. */
   readonly meaning?: string
   readonly remedy?: string
@@ -98,17 +101,52 @@ export function detailsOf(thrown: unknown, texts: Texts): FailureDetails {
 
 function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
   if (error instanceof EndCodeError) {
-    const { endCode, command, station } = error
-    const explained = explainEndCode(endCode, { language: languageOf(texts) })
-    const meaning = explained?.meaning ?? error.meaning
-    const remedy = explained?.remedy ?? error.remedy
-    return { endCode, ...present({ meaning, remedy, command, station }) }
+    const { endCode, abnormalCode, command, station } = error
+    const explained = explanationOf(error, languageOf(texts))
+    return {
+      endCode,
+      ...(abnormalCode === undefined ? {} : { abnormalCode }),
+      ...present({ message: refusedText(error, explained, texts), ...explained, command, station }),
+    }
   }
   if (error instanceof RequestError) return present({ field: error.field })
   if (error instanceof TimeoutError || error instanceof ConnectionError) {
     return error.causes.length === 0 ? {} : { causes: error.causes }
   }
   return {}
+}
+
+interface Explanation {
+  readonly meaning?: string
+  readonly remedy?: string
+}
+
+/** Meaning and remedy in a language. None where the error has none: the number is of a family without texts. */
+function explanationOf(error: EndCodeError, language: Language): Explanation {
+  const { endCode, abnormalCode, command } = error
+  if (error.meaning === undefined) return {}
+  const named = Object.values(commands).find(({ title }) => title === command)?.name
+  const refused = explainEndCode(endCode, { language, ...(named === undefined ? {} : { command: named }) })
+  const reason = abnormalCode === undefined ? undefined : explainEndCode(abnormalCode, { language })
+  const meaning = [refused?.meaning, refused?.cause, reason?.meaning].filter((part) => part !== undefined).join(' ')
+  return present({ meaning, remedy: reason?.remedy ?? refused?.remedy })
+}
+
+/** The whole sentence where the runtime does not speak English: the library's own is. */
+function refusedText(error: EndCodeError, { meaning, remedy }: Explanation, texts: Texts): string {
+  const { endCode, abnormalCode, command } = error
+  if (languageOf(texts) === 'en-US' || meaning === undefined || command === undefined) return error.message
+  const digits = abnormalCode === undefined ? [endCode] : [endCode, abnormalCode]
+  const code = digits.map((number) => `${hex(number)}H`).join(', ')
+  return texts('error.refused', { command, code, meaning, remedy: remedy ?? '' })
+}
+
+/** Codes of 1E frames have two digits, all others four. */
+function hex(code: number): string {
+  return code
+    .toString(16)
+    .toUpperCase()
+    .padStart(code > 0xff ? 4 : 2, '0')
 }
 
 function reasonOf(error: PlcError): { reason?: string } {

@@ -52,8 +52,15 @@ export type PlcErrorCode =
 
 const BRAND = 'melsec-jw.error'
 
+/** By class: `instanceof` asks for them again and again. */
+const BRANDS = new Map<string, symbol>()
+
 function brand(name: string): symbol {
-  return Symbol.for(`${BRAND}.${name}`)
+  const known = BRANDS.get(name)
+  if (known !== undefined) return known
+  const made = Symbol.for(`${BRAND}.${name}`)
+  BRANDS.set(name, made)
+  return made
 }
 
 function carries(value: unknown, name: string): boolean {
@@ -96,6 +103,8 @@ export interface EndCodeDetail {
   readonly command?: string
   /** Station that reported the error, where the frame says so, e.g. `network 0, station 255, module I/O 03FF, multidrop 0`. */
   readonly station?: string
+  /** Of a 1E frame with end code 5BH: the code behind it, which says why. */
+  readonly abnormalCode?: number
   /** What the code means, in English. */
   readonly meaning?: string
   /** What to do about it, in English. */
@@ -108,6 +117,7 @@ export class EndCodeError extends PlcError {
   readonly outcome = 'refused'
   readonly command: string | undefined
   readonly station: string | undefined
+  readonly abnormalCode: number | undefined
   readonly meaning: string | undefined
   readonly remedy: string | undefined
   constructor(
@@ -119,6 +129,7 @@ export class EndCodeError extends PlcError {
     super('EndCodeError', message)
     this.command = detail.command
     this.station = detail.station
+    this.abnormalCode = detail.abnormalCode
     this.meaning = detail.meaning
     this.remedy = detail.remedy
   }

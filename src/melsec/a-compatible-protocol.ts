@@ -157,7 +157,11 @@ function refusal(code: DataCode, command: NamedCommand, frame: ResponseFrame<Hea
   return new EndCodeError(
     frame.endCode,
     `${what}${why}: ${meaning === '' ? 'No text is known for this code.' : `${meaning} ${remedy ?? ''}`}`,
-    { command: command.title, ...(meaning === '' ? {} : { meaning, remedy: remedy ?? '' }) },
+    {
+      command: command.title,
+      ...(abnormal === undefined ? {} : { abnormalCode: abnormal }),
+      ...(meaning === '' ? {} : { meaning, remedy: remedy ?? '' }),
+    },
   )
 }
 
