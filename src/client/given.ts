@@ -1,4 +1,5 @@
 // What programs without types pass: looked at before anything is done with it.
+import { effects } from '../codec/declaration'
 import { RequestError } from '../errors'
 import type { Command } from '../melsec/command'
 import { FORM_BITS } from '../melsec/form'
@@ -48,11 +49,13 @@ export function checkBooleans(given: object, names: readonly string[]): void {
   }
 }
 
-const EFFECTS: readonly unknown[] = ['read', 'write', 'control', 'diagnose'] satisfies readonly Command['effect'][]
+function isEffect(given: unknown): boolean {
+  return effects.some((effect) => effect === given)
+}
 
 /** @throws RequestError BAD_MESSAGE or BAD_OPTION */
 export function checkRequest(command: Command, message: unknown, form: unknown): void {
-  if (!isPlainObject(command) || !EFFECTS.includes(command.effect) || !isPlainObject(command.request)) {
+  if (!isPlainObject(command) || !isEffect(command.effect) || !isPlainObject(command.request)) {
     throw new RequestError('BAD_MESSAGE', 'request() takes a declared command, e.g. commands.readWords.', 'command')
   }
   if (command.sender === 'plc') {

@@ -1,8 +1,12 @@
 import { checkShapes } from './check'
 import type { Shape } from './field'
 
-/** What a command does to the PLC. Only `read` and `diagnose` may ever be repeated when the outcome is unknown. */
-export type Effect = 'read' | 'write' | 'control' | 'diagnose'
+/**
+ * What a command does to the PLC. Only `read` and `diagnose` may ever be repeated when the outcome is unknown.
+ * `lock`: changes nothing but what other devices may do meanwhile, as opening a file does; it needs no permission.
+ */
+export const effects = ['read', 'write', 'control', 'diagnose', 'lock'] as const
+export type Effect = (typeof effects)[number]
 
 /** A command as plain data: what every protocol family declares of its commands. */
 export interface Declaration {

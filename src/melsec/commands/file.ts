@@ -138,7 +138,7 @@ export const fileCommands = declare({
     code: 0x1827,
     unit: 'none',
     subcommands: withPassword,
-    effect: 'control',
+    effect: 'lock',
     manual,
     request: {
       password,
@@ -170,7 +170,7 @@ export const fileCommands = declare({
     title: 'Close File',
     code: 0x182a,
     unit: 'none',
-    effect: 'control',
+    effect: 'lock',
     manual,
     request: {
       pointer,
