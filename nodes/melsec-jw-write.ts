@@ -1,6 +1,6 @@
 /** Node `melsec-jw-write`: writes values when a message arrives, and passes the message on when the PLC has taken them. */
 import type { NodeAPI } from 'node-red'
-import type { MelsecClient } from '../src/index'
+import type { Item, MelsecClient } from '../src/index'
 import { refusal } from './failure'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
@@ -34,9 +34,15 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
 
 async function check(client: MelsecClient, entries: readonly NamedEntry[], { texts }: Tools): Promise<void> {
   const items = entries.map(({ item }) => item)
-  const types = items.map((item) => client.explain(item).type)
-  const failure = readBackFailure(entries, await client.read(items), types, texts)
+  const results = await client.read(items)
+  // Of a label the PLC says the type.
+  const types = results.map((result, index) => (result.ok && result.type) || typeOf(client, items[index]))
+  const failure = readBackFailure(entries, results, types, texts)
   if (failure !== undefined) throw failure
+}
+
+function typeOf(client: MelsecClient, item: Item | undefined): string {
+  return item === undefined ? '' : (client.explain(item).type ?? '')
 }
 
 type EntrySource = (message: Parameters<Work>[0]) => Promise<NamedEntry[]>

@@ -5,7 +5,17 @@ export type { BufferMemory } from './client/buffer-memory'
 export type { CallOptions } from './client/call'
 export type { ConnectionState } from './client/connection'
 export type { ClearMode, Control, Identity, PauseOptions, RunOptions } from './client/control'
-export type { LabelItem, LabelOptions, LabelReadResult, Labels, LabelValue, LabelWriteResult } from './client/labels'
+export type { ItemExplanation, LabelExplanation } from './client/label-explain'
+export type {
+  LabelFormat,
+  LabelItem,
+  LabelItemOptions,
+  LabelOptions,
+  LabelReadResult,
+  Labels,
+  LabelValue,
+  LabelWriteResult,
+} from './client/labels'
 export {
   type ClientEvents,
   createMelsecClient,
@@ -19,11 +29,12 @@ export {
   type WritePlan,
 } from './client/melsec-client'
 export type { Monitor } from './client/monitor'
+export type { RequestExplanation } from './client/named-request'
 export type { MelsecClientOptions } from './client/options'
 export {
+  type DeviceExplanation,
   formatItem,
   type Item,
-  type ItemExplanation,
   type ItemOptions,
   type ParsedItem,
   type PlanDescription,

@@ -14,6 +14,7 @@ import type { Terminal } from './terminal'
 const examples = [
   'read --plc 192.168.3.39:5010 --profile iq-r D100 M0 X1F',
   "read --plc 192.168.3.39:5010 --profile iq-r D100:REAL 'D200:DINT[10]' M0..M15 D50.F",
+  "read --plc 192.168.3.39:5010 --profile iq-r Line1.Speed 'Line1.Values[2]' label:DD100",
   "read --plc 192.168.3.250:5010 --profile iq-f X17 'D130:STRING(20)' --json",
 ]
 
@@ -25,7 +26,8 @@ export const readCommand: MakeCommand = (run) => {
     .description(
       'Read devices of the PLC. An item is a device with a type, written as in GX Works: D100 (INT), M0 (BOOL), ' +
         'D100:REAL, D100.F (a bit of a word), D100:DINT[10] or D0..D9 (several), K4M0 (16 bits as a number), ' +
-        'D130:STRING(20), U3\\G100, J1\\W10.',
+        'D130:STRING(20), U3\\G100, J1\\W10. Labels of an iQ-R are items too: Line1.Speed, label:DD100, and ' +
+        'Line1.Values[0]:INT[10] for ten elements; the PLC says their types.',
     )
     .argument('<items...>', 'what to read')
   addFormatOptions(addConnectionOptions(command))
@@ -42,7 +44,7 @@ async function read(terminal: Terminal, items: readonly string[], options: ReadO
   if (options.json === true) terminal.out(json({ results: results.map(resultData) }))
   else {
     const rows = results.flatMap((result, i) =>
-      result.ok ? [[result.item, valueText(result.value, types[i]), ...tornText(result)]] : [],
+      result.ok ? [[result.item, valueText(result.value, result.type ?? types[i]), ...tornText(result)]] : [],
     )
     if (rows.length > 0) terminal.out(table(rows))
   }

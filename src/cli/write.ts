@@ -1,5 +1,6 @@
 import {
   createMelsecClient,
+  type DeviceExplanation,
   type ItemExplanation,
   type MelsecClient,
   type ReadValue,
@@ -26,13 +27,25 @@ const examples = [
   'write --plc 192.168.3.39:5010 --profile iq-r D110:REAL=650',
   'write --plc 192.168.3.39:5010 --profile iq-r M0=ON D200=0x1F --yes',
   "write --plc 192.168.3.39:5010 --profile iq-r 'D300:INT[3]=1,2,3' 'D130:STRING(20)=Apple juice'",
+  "write --plc 192.168.3.39:5010 --profile iq-r Line1.Speed=12.5 'Line1.Values[0]:INT[3]=1,2,3'",
 ]
 
 type WriteOptions = ConnectionOptions & FormatOptions & { readonly yes?: boolean; readonly readModifyWrite?: boolean }
 
+/** What was typed, understood as far as it is without the PLC. */
+interface Typed {
+  readonly item: string
+  readonly text: string
+  readonly explanation: ItemExplanation
+  /** Missing: the type is the PLC's business. */
+  readonly value?: ReadValue
+}
+
 interface Assignment {
   readonly item: string
-  readonly explanation: ItemExplanation
+  /** What it is, for people. */
+  readonly what: string
+  readonly type: string
   readonly value: ReadValue
 }
 
@@ -41,8 +54,8 @@ export const writeCommand: MakeCommand = (run) => {
   const command = newCommand('write', 'write devices of the PLC (asks before)', examples)
     .description(
       'Write devices of the PLC, after asking. Values are typed as the item says: numbers decimal or 0x1F, bits ON or ' +
-        'OFF, texts as they are, arrays with commas between. All are checked before anything is sent, and nothing ' +
-        'more is sent after the first failure.',
+        'OFF, texts as they are, arrays with commas between. All are checked before anything is written, and nothing ' +
+        'more is written after the first failure. The types of labels are read from the PLC first.',
     )
     .argument('<item=value...>', 'what to write')
     .optionsGroup('Writing:')
@@ -55,28 +68,81 @@ export const writeCommand: MakeCommand = (run) => {
 }
 
 async function write(terminal: Terminal, texts: readonly string[], options: WriteOptions): Promise<number> {
-  const how = { allOrNothing: true, readModifyWrite: options.readModifyWrite === true }
   const checking = createMelsecClient(clientOptions(options))
-  const assignments = texts.map((text) => assignmentOf(checking, text))
-  const { notes } = checking.planWrite(entriesOf(assignments), how).describe()
-  const refusal = await refusalOf(terminal, options.yes === true, questionOf(assignments, notes, options))
-  if (refusal !== undefined) throw new RequestError('NOT_PERMITTED', `Nothing was written. ${refusal}`, '--yes')
-  const results = await withClient(terminal, options, { allowWrites: true }, (client) =>
-    client.write(entriesOf(assignments), how),
-  )
-  show(terminal, options, assignments, results)
-  return exitOfResults(results)
+  const typed = texts.map((text) => typedOf(checking, text))
+  const assignments = typed.every(isComplete) ? typed.map(deviceAssignment) : undefined
+  // Devices are understood before anybody is asked or connected. Of labels only the PLC knows the types.
+  if (assignments !== undefined) await confirm(terminal, checking, assignments, options)
+  return withClient(terminal, options, { allowWrites: true }, async (client) => {
+    const all = assignments ?? (await assignmentsOf(client, typed))
+    if (assignments === undefined) await confirm(terminal, client, all, options)
+    const results = await client.write(entriesOf(all), how(options))
+    show(terminal, options, all, results)
+    return exitOfResults(results)
+  })
 }
 
-/** Everything is understood before anybody is asked or connected. */
-function assignmentOf(client: MelsecClient, text: string): Assignment {
+function how(options: WriteOptions) {
+  return { allOrNothing: true, readModifyWrite: options.readModifyWrite === true }
+}
+
+/** @throws RequestError NOT_PERMITTED when it is not confirmed */
+async function confirm(
+  terminal: Terminal,
+  client: MelsecClient,
+  assignments: readonly Assignment[],
+  options: WriteOptions,
+): Promise<void> {
+  const { notes } = client.planWrite(entriesOf(assignments), how(options)).describe()
+  const refusal = await refusalOf(terminal, options.yes === true, questionOf(assignments, notes, options))
+  if (refusal !== undefined) throw new RequestError('NOT_PERMITTED', `Nothing was written. ${refusal}`, '--yes')
+}
+
+function typedOf(client: MelsecClient, text: string): Typed {
   const at = text.indexOf('=')
   if (at < 0) {
     throw new RequestError('BAD_VALUE', `${JSON.stringify(text)} has no value: write ${text}=value, e.g. D100=5.`, text)
   }
   const item = text.slice(0, at).trim()
+  const value = text.slice(at + 1)
   const explanation = client.explain(item)
-  return { item, explanation, value: typedValue(explanation, text.slice(at + 1)) }
+  if ('label' in explanation) return { item, text: value, explanation }
+  return { item, text: value, explanation, value: typedValue(explanation, value) }
+}
+
+function isComplete(
+  typed: Typed,
+): typed is Typed & { readonly explanation: DeviceExplanation; readonly value: ReadValue } {
+  return typed.value !== undefined
+}
+
+function deviceAssignment({
+  item,
+  explanation,
+  value,
+}: {
+  item: string
+  explanation: DeviceExplanation
+  value: ReadValue
+}): Assignment {
+  const { title, type, first, last } = explanation
+  return { item, what: first === last ? title : `${title} ${first} to ${last}`, type, value }
+}
+
+/** With the types of the labels, as the PLC says them. */
+async function assignmentsOf(client: MelsecClient, typed: readonly Typed[]): Promise<Assignment[]> {
+  const labels = typed.filter((one) => !isComplete(one)).map(({ item }) => item)
+  const results = (await client.read(labels)).values()
+  return typed.map((one): Assignment => {
+    if (isComplete(one)) return deviceAssignment(one)
+    const { item, text, explanation } = one
+    const result = results.next().value
+    if (result?.ok !== true) throw result?.error
+    const { type = '' } = result
+    const { count } = explanation
+    const value = typedValue({ text: item, type, ...(count === undefined ? {} : { count }) }, text)
+    return { item, what: 'label', type, value }
+  })
 }
 
 function entriesOf(assignments: readonly Assignment[]): WriteEntry[] {
@@ -84,12 +150,7 @@ function entriesOf(assignments: readonly Assignment[]): WriteEntry[] {
 }
 
 function questionOf(assignments: readonly Assignment[], notes: readonly string[], options: WriteOptions): string {
-  const rows = assignments.map(({ item, explanation: { title, type, first, last }, value }) => [
-    item,
-    first === last ? title : `${title} ${first} to ${last}`,
-    type,
-    `= ${valueText(value, type)}`,
-  ])
+  const rows = assignments.map(({ item, what, type, value }) => [item, what, type, `= ${valueText(value, type)}`])
   return [`Write to ${peerText(options)}:`, table(rows, '  '), ...notes].join('\n')
 }
 

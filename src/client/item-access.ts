@@ -2,24 +2,27 @@
 import { RequestError } from '../errors'
 import type { Exchange } from '../link/link'
 import { namedAsFx5 } from '../melsec/a-compatible-rules'
+import { commands } from '../melsec/commands/commands'
 import type { Head3e } from '../melsec/frame-3e'
 import type { ClientProtocol } from '../melsec/protocol'
 import type { CallOptions } from './call'
 import type { ReadPlan, WriteEntry, WritePlan } from './client-types'
-import { Deadline } from './deadline'
-import { checkBooleans, listOf } from './given'
-import { isLabelItem, type MixedAccess, readWithLabels, writeWithLabels } from './label-in-items'
+import { checkBooleans, listOf, shown } from './given'
+import { explainLabel, type ItemExplanation } from './label-explain'
+import { type AnyItem, hasPrefix, isLabel, labelInstead, parsedLabel } from './label-in-items'
+import { randomMessage } from './label-request'
+import { type LabelLender, MixedItems, mixedMonitor, mixedReadPlan } from './mixed-read'
+import { type MixedEntry, MixedWrite } from './mixed-write'
 import { ItemMonitor, type Monitor, type MonitorCall, type Registration } from './monitor'
 import type { Settings } from './options'
 import {
   explainItem,
   type Item,
-  type ItemExplanation,
   type ParsedItem,
+  type WriteEntry as PlannedEntry,
   parseItem,
   planRead,
   planWrite,
-  type RefusedItem,
   type WriteOptions,
   type WriteResult,
 } from './plan'
@@ -32,7 +35,6 @@ const PREPARED_PLANS = 500
 export interface ItemParts {
   readonly settings: Settings
   readonly protocol: ClientProtocol<Head3e>
-  readonly labels: MixedAccess['labels']
   readonly registration: Registration
   /** One call: all its requests share one deadline. @throws RequestError BAD_OPTION */
   readonly call: (options: CallOptions | undefined) => MonitorCall<Head3e>
@@ -42,26 +44,19 @@ export interface ItemParts {
 
 export class ItemAccess {
   readonly #parts: ItemParts
-  readonly #mixed: MixedAccess
+  readonly #lender: LabelLender<Head3e>
   readonly #prepared = new Map<string, ReadPlan>()
   /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
   #monitored = false
 
   constructor(parts: ItemParts) {
-    const { settings, labels } = parts
+    const { settings, protocol } = parts
     this.#parts = parts
-    this.#mixed = {
-      labels,
-      read: (items, call) => this.prepare(items).run(call),
-      write: (entries, call) => this.planWrite(entries, call).run(call),
-      deadline: (call) => new Deadline(settings.clock, call, settings.timeout),
-      time: () => settings.clock.time(),
-    }
+    this.#lender = { protocol, format: settings.labelFormat, time: () => settings.clock.time() }
   }
 
   /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
   prepare(items: readonly Item[]): Pick<ReadPlan, 'run'> {
-    if (items.some(isLabelItem)) return { run: (options) => readWithLabels(items, options, this.#mixed) }
     if (!items.every((item) => typeof item === 'string')) return this.plan(items)
     // Not joined: whatever stood between two texts could also stand in one.
     const key = JSON.stringify(items)
@@ -74,14 +69,12 @@ export class ItemAccess {
   }
 
   plan(items: readonly Item[]): ReadPlan {
-    const { settings, protocol, call } = this.#parts
-    const plan = planRead(
-      listOf(items, 'items').map((item) => this.#parse(item)),
-      protocol,
-      this.#planOptions,
-    )
+    const { protocol, call } = this.#parts
+    const mixed = new MixedItems(listOf(items, 'items').map((item) => this.#parse(item)))
+    const plan = planRead(mixed.devices, protocol, this.#planOptions)
+    if (mixed.labels.length > 0) return mixedReadPlan(mixed, plan, this.#lender, call)
     return {
-      run: async (options) => plan.run(call(options).send, () => settings.clock.time()),
+      run: async (options) => plan.run(call(options).send, this.#lender.time),
       describe: () => plan.describe(),
       toString: () => plan.toString(),
     }
@@ -91,8 +84,6 @@ export class ItemAccess {
     entries: readonly WriteEntry[],
     options: (CallOptions & WriteOptions) | undefined,
   ): Promise<WriteResult[]> {
-    const hasLabels = listOf(entries, 'entries').some((entry) => isLabelItem(entry?.item))
-    if (hasLabels) return writeWithLabels(entries, options ?? {}, this.#mixed)
     return this.planWrite(entries, options).run(options)
   }
 
@@ -100,13 +91,19 @@ export class ItemAccess {
     const { settings, protocol, call, permit } = this.#parts
     checkBooleans(options, ['readModifyWrite', 'allOrNothing'])
     // An entry that is none is an item that is none.
-    const parsed = listOf(entries, 'entries').map((entry) => ({ item: this.#parse(entry?.item), value: entry?.value }))
-    const plan = planWrite(parsed, protocol, { ...options, xyRadix: settings.xyRadix })
+    const parsed = listOf(entries, 'entries').map(
+      (entry): MixedEntry => ({ item: this.#parse(entry?.item), value: entry?.value }),
+    )
+    const all = { ...options, xyRadix: settings.xyRadix }
+    const devices: readonly PlannedEntry[] = parsed.filter(isPlanned)
+    const isMixed = devices.length < parsed.length
+    const plan = isMixed ? new MixedWrite(parsed, this.#lender, all) : planWrite(devices, protocol, all)
     return {
       run: async (callOptions) => {
-        // Before anything is sent, also the reading of a word that a bit is changed in.
+        // Before anything is sent, also the reading of a word that a bit is changed in, or of the type of a label.
         permit('write', 'Writing')
-        return plan.run(call(callOptions).send)
+        const opened = call(callOptions)
+        return plan instanceof MixedWrite ? plan.run(opened) : plan.run(opened.send)
       },
       describe: () => plan.describe(),
       toString: () => plan.toString(),
@@ -115,25 +112,24 @@ export class ItemAccess {
 
   monitor(items: readonly Item[]): Monitor {
     const { settings, protocol, registration, call } = this.#parts
-    const monitor = new ItemMonitor(
-      listOf(items, 'items').map((item) => this.#parse(item)),
-      protocol,
-      {
-        ...this.#planOptions,
-        call,
-        time: () => settings.clock.time(),
-        registration,
-        unusable: this.#monitorUnusable(),
-      },
-    )
+    const mixed = new MixedItems(listOf(items, 'items').map((item) => this.#parse(item)))
+    const monitor = new ItemMonitor(mixed.devices, protocol, {
+      ...this.#planOptions,
+      call,
+      time: () => settings.clock.time(),
+      registration,
+      unusable: this.#monitorUnusable(),
+    })
+    if (mixed.labels.length > 0 && mixed.devices.length === 0) return mixedMonitor(mixed, undefined, this.#lender, call)
     this.#monitored ||= monitor.mode === 'monitor'
-    return monitor
+    return mixed.labels.length === 0 ? monitor : mixedMonitor(mixed, monitor, this.#lender, call)
   }
 
   /** @throws RequestError when it is not an item. */
   explain(item: Item): ItemExplanation {
     const parsed = this.#parse(item)
     if ('error' in parsed) throw parsed.error
+    if (isLabel(parsed)) return explainLabel(parsed, this.#parts.protocol)
     return explainItem(parsed, this.#parts.protocol, { xyRadix: this.#parts.settings.xyRadix })
   }
 
@@ -142,15 +138,29 @@ export class ItemAccess {
     return { gap, xyRadix }
   }
 
-  #parse(item: Item): ParsedItem | RefusedItem {
+  #parse(item: Item): AnyItem {
+    if (hasPrefix(item)) return this.#askable(parsedLabel(item))
+    const { xyRadix, xyUnknown, format, profile } = this.#parts.settings
     try {
-      const { xyRadix, xyUnknown, format } = this.#parts.settings
       const parsed = this.#renamed(parseItem(item, { xyRadix, format }))
       if (xyUnknown) refuseAmbiguousXy(item, parsed)
       return parsed
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
-      return { text: typeof item === 'string' ? item : String(item?.address), error }
+      return this.#askable(labelInstead(item, error, { profile, xyRadix }))
+    }
+  }
+
+  /** A label that this PLC can be asked for: it has labels, and a request holds the name. */
+  #askable(item: AnyItem): AnyItem {
+    if (!isLabel(item)) return item
+    try {
+      this.#parts.protocol.exchange(commands.readRandomLabels, randomMessage([item.label]))
+      return item
+    } catch (error) {
+      if (!(error instanceof RequestError)) throw error
+      const message = `${shown(item.text)}: ${error.message}`
+      return { text: item.text, error: new RequestError(error.code, message, error.field) }
     }
   }
 
@@ -168,4 +178,8 @@ export class ItemAccess {
     if (!this.#monitored) return undefined
     return 'Another monitor of this client is registered. Over UDP a registration may arrive twice or late, and take the place of this one without anybody noticing. Over TCP they take turns.'
   }
+}
+
+function isPlanned(entry: MixedEntry): entry is PlannedEntry {
+  return !isLabel(entry.item)
 }

@@ -128,7 +128,8 @@ type Fail = (code: RequestErrorCode, message: string) => never
 
 const ITEM_FIELDS = ['address', 'type', 'count', 'wordOrder', 'byteOrder', 'encoding', 'trim'] as const
 
-function checkedItem(item: Item): ItemOptions {
+/** An item as an object. @throws RequestError BAD_ADDRESS when it is none, BAD_OPTION for a field that no item has */
+export function checkedItem(item: Item): ItemOptions {
   if (typeof item === 'string') return { address: item }
   if (typeof item !== 'object' || item === null || typeof item.address !== 'string') {
     throw new RequestError('BAD_ADDRESS', 'An item is a text such as D100:REAL, or an object with such an address.')
@@ -147,13 +148,11 @@ interface Parts {
   readonly count?: number
 }
 
+/** Says that a text is the name of a label, whatever it looks like. */
+export const LABEL_PREFIX = /^\s*label:/i
+
 function splitText(text: string, fail: Fail): Parts {
-  if (/^\s*label:/i.test(text)) {
-    fail(
-      'UNSUPPORTED',
-      'labels are read by read() and written by write() of the client, not by plans, monitors or nodes.',
-    )
-  }
+  if (LABEL_PREFIX.test(text)) fail('UNSUPPORTED', 'a label is no device: a client of a PLC with labels takes it.')
   const [, device = '', type] = /^([^:]*)(?::(.*))?$/s.exec(text) ?? []
   const [, counted = '', digits] = /^(.*?)(?:\[\s*(\d+)\s*\])?$/s.exec(type ?? device) ?? []
   const area = type === undefined ? counted : device

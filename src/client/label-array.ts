@@ -2,7 +2,7 @@
 import { PlcError, ProtocolError, RequestError } from '../errors'
 import { labelDataType } from '../melsec/label'
 import type { PlcValue } from '../value/value'
-import type { AskedLabel, LabelOptions } from './label-item'
+import type { AskedLabel, LabelFormat } from './label-item'
 import type { ArrayRead, LabelAnswerArea, LabelRequests } from './label-request'
 import { decodeLabelArray, extentOf, type LabelType } from './label-value'
 
@@ -49,14 +49,19 @@ export class ArrayParts {
     }
   }
 
+  /** The requests that read all pieces, as names and elements. */
+  get requests(): readonly (readonly ArrayRead[])[] {
+    return this.#requests.arrayRequests(this.#pieces, this.#most)
+  }
+
   /** Reads all pieces. */
-  async read(options: LabelOptions): Promise<Map<AskedLabel, ArrayValue | PlcError>> {
+  async read(format: LabelFormat): Promise<Map<AskedLabel, ArrayValue | PlcError>> {
     const answers = await this.#requests.arrays(this.#pieces, this.#most)
     const values = new Map<AskedLabel, ArrayValue | PlcError>()
     for (const piece of this.#pieces) {
       const before = values.get(piece.asked)
       if (before instanceof PlcError) continue
-      const read = this.#valueOf(piece, answers.get(piece), options)
+      const read = this.#valueOf(piece, answers.get(piece), { ...format, ...piece.asked.format })
       if (read instanceof PlcError) values.set(piece.asked, read)
       else if (before === undefined) values.set(piece.asked, { value: read, type: piece.type.text })
       else values.set(piece.asked, { ...before, value: [...before.value, ...read], torn: true })
@@ -67,7 +72,7 @@ export class ArrayParts {
   #valueOf(
     { type, count, name }: Piece,
     answer: LabelAnswerArea | PlcError | undefined,
-    options: LabelOptions,
+    format: LabelFormat,
   ): PlcValue[] | PlcError {
     if (answer === undefined || answer instanceof PlcError) {
       return answer ?? new ProtocolError('TRUNCATED', `${name}: the PLC did not answer it.`)
@@ -76,7 +81,7 @@ export class ArrayParts {
       return new ProtocolError('BAD_FIELD', `${name}: its data type changed while it was read.`)
     }
     try {
-      return decodeLabelArray(type, answer.area, count, this.#requests.protocol.code, options)
+      return decodeLabelArray(type, answer.area, count, this.#requests.protocol.code, format)
     } catch (error) {
       if (error instanceof PlcError) return error
       throw error

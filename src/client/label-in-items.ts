@@ -1,154 +1,117 @@
-// Labels among the items of read and write: `label:Line1.Speed` beside `D100`.
-import { ClosedError, PlcError, RequestError } from '../errors'
-import type { CallOptions } from './call'
-import type { Deadline } from './deadline'
-import type { LabelItem } from './label-item'
-import type { LabelAccess, LabelReadResult, LabelValue } from './labels'
-import type { Item, ReadResult, WriteOptions, WriteResult } from './plan'
+/**
+ * Labels among items: `label:Line1.Speed`, `Line1.Speed` and `Line1.Values[0]:INT[10]` beside `D100`.
+ *
+ * With the prefix `label:` anything is a label. Without it a text is one when the profile surely has labels and the text
+ * cannot have been meant as an address: see `melsec/plain-label.ts`. The type behind a name is what the user expects; the
+ * PLC says the type.
+ */
+import { RequestError } from '../errors'
+import { isLabelName, isPlainLabel } from '../melsec/plain-label'
+import { doubtOf, lackOf, type Profile } from '../melsec/profile'
+import { shown } from './given'
+import { checkedItem, type Item, type ItemOptions, LABEL_PREFIX, type ParsedItem, type RefusedItem } from './item'
+import { type AskedLabel, askedLabel } from './label-item'
 
-const PREFIX = /^\s*label:/i
-
-/** What labels and devices are read and written with. */
-export interface MixedAccess {
-  readonly labels: Pick<LabelAccess, 'readList' | 'writeList'>
-  readonly read: (items: readonly Item[], options: CallOptions | undefined) => Promise<ReadResult[]>
-  readonly write: (entries: readonly Entry[], options: CallOptions & WriteOptions) => Promise<WriteResult[]>
-  readonly deadline: (options: CallOptions | undefined) => Deadline
-  /** ms since 1970 */
-  readonly time: () => number
+/** An item that is a label. */
+export interface LabelInItems {
+  /** As it was given. Results and messages carry it. */
+  readonly text: string
+  readonly label: AskedLabel
 }
 
-interface Entry {
-  readonly item: Item
-  readonly value: LabelValue
+/** What an item turned out to be. */
+export type AnyItem = ParsedItem | RefusedItem | LabelInItems
+
+export function isLabel(item: AnyItem): item is LabelInItems {
+  return 'label' in item
 }
 
 /** Whether the item says that it is a label. Programs without types pass anything. */
-export function isLabelItem(item: Item | undefined): boolean {
+export function hasPrefix(item: Item | undefined): boolean {
+  return LABEL_PREFIX.test(addressOf(item))
+}
+
+function addressOf(item: Item | undefined): string {
   const text: unknown = typeof item === 'object' && item !== null ? item.address : item
-  return typeof text === 'string' && PREFIX.test(text)
+  return typeof text === 'string' ? text : ''
 }
 
-/** @throws RequestError BAD_OPTION for what only devices take */
-function labelOf(item: Item): LabelItem {
-  if (typeof item === 'string') return item.replace(PREFIX, '')
-  const { address, count, ...others } = item
-  const label = address.replace(PREFIX, '')
-  const given = Object.entries(others).filter(([, value]) => value !== undefined)
-  for (const [name] of given) {
-    const message = `${address}: a label takes a count, but no ${name}: the PLC says its type, the client's format its encoding.`
-    throw new RequestError('BAD_OPTION', message, name)
-  }
-  return count === undefined ? label : { label, count }
-}
-
-function textOf(item: Item): string {
+/** What results call an item, also one that is none. */
+export function itemText(item: Item | undefined): string {
   return typeof item === 'string' ? item : String(item?.address)
 }
 
-/** Reads the devices and, at the same time, the labels. */
-export async function readWithLabels(
-  items: readonly Item[],
-  options: CallOptions | undefined,
-  access: MixedAccess,
-): Promise<ReadResult[]> {
-  const wanted = items.map((item) => (isLabelItem(item) ? attempt(() => labelOf(item)) : undefined))
-  const labels = wanted.flatMap((one) => (one === undefined || one instanceof PlcError ? [] : [one]))
-  const devices = items.filter((_, at) => wanted[at] === undefined)
-  const [deviceResults, labelResults] = await Promise.all([
-    devices.length === 0 ? [] : access.read(devices, options),
-    access.labels.readList(labels, options ?? {}),
-  ])
-  let device = 0
-  let label = 0
-  return items.map((item, at): ReadResult => {
-    const one = wanted[at]
-    if (one === undefined) return deviceResults[device++] as ReadResult
-    if (one instanceof PlcError) return { item: textOf(item), ok: false, error: one, timestamp: access.time() }
-    return itemResult(textOf(item), labelResults[label++] as LabelReadResult)
+/**
+ * A label as an item names it, with or without the prefix.
+ * @throws RequestError BAD_ADDRESS, BAD_TYPE, BAD_OPTION, OUT_OF_RANGE
+ */
+export function parseLabelItem(item: Item): LabelInItems {
+  const given = checkedItem(item)
+  const { wordOrder, byteOrder, encoding, trim } = given
+  for (const [field, value] of Object.entries({ wordOrder, byteOrder })) {
+    if (value === undefined) continue
+    const message = `${given.address}: a label takes no ${field}: the PLC says its type.`
+    throw new RequestError('BAD_OPTION', message, field)
+  }
+  const parts = partsOf(given.address)
+  const type = onlyOne(given, 'type', parts.type)
+  const count = onlyOne(given, 'count', parts.count)
+  const label = askedLabel({
+    label: parts.name,
+    ...(count === undefined ? {} : { count }),
+    ...(type === undefined ? {} : { type }),
+    ...(encoding === undefined ? {} : { encoding }),
+    ...(trim === undefined ? {} : { trim }),
   })
+  return { text: given.address, label }
 }
 
-function itemResult(item: string, result: LabelReadResult): ReadResult {
-  const { timestamp } = result
-  if (!result.ok) return { item, ok: false, error: result.error, timestamp }
-  const { value, torn } = result
-  return { item, ok: true, value, timestamp, ...(torn === undefined ? {} : { torn }) }
+/** Name, type and count of `Line1.Values[0]:INT[10]`. Brackets behind the name are an index, behind the type a count. */
+function partsOf(text: string): { readonly name: string; readonly type?: string; readonly count?: number } {
+  const [, name = '', type] = /^([^:]*)(?::(.*))?$/s.exec(text.replace(LABEL_PREFIX, '')) ?? []
+  if (type === undefined) return { name }
+  const [, counted = '', digits] = /^(.*?)(?:\[\s*(\d+)\s*\])?$/s.exec(type) ?? []
+  return { name, type: counted, ...(digits === undefined ? {} : { count: Number(digits) }) }
 }
 
-/** Writes in the order given; what stands behind a write of unknown outcome is not sent. */
-export async function writeWithLabels(
-  entries: readonly Entry[],
-  options: CallOptions & WriteOptions,
-  access: MixedAccess,
-): Promise<WriteResult[]> {
-  if (options.allOrNothing === true) {
-    const message = 'allOrNothing cannot be kept with labels: their types are known only to the PLC.'
-    throw new RequestError('BAD_OPTION', message, 'allOrNothing')
-  }
-  const deadline = access.deadline(options)
-  const results: WriteResult[] = []
-  for (const run of runsOf(entries)) {
-    const unknown = results.find((result) => !result.ok && result.error.outcome === 'unknown')
-    results.push(...(await writeRun(run, unknown, { ...options }, deadline, access)))
-  }
-  return results
+function onlyOne<F extends 'type' | 'count'>(given: ItemOptions, field: F, inText: ItemOptions[F]): ItemOptions[F] {
+  const own = given[field]
+  if (inText === undefined || own === undefined || inText === own) return own ?? inText
+  const message = `${given.address}: the ${field} is given twice, as ${inText} and as ${own}: leave one out.`
+  throw new RequestError('BAD_OPTION', message, field)
 }
 
-/** Entries of one kind that follow one another. */
-function runsOf(entries: readonly Entry[]): Entry[][] {
-  const runs: Entry[][] = []
-  for (const entry of entries) {
-    const last = runs.at(-1)
-    if (last?.[0] !== undefined && isLabelItem(last[0].item) === isLabelItem(entry?.item)) last.push(entry)
-    else runs.push([entry])
-  }
-  return runs
+/** What a text that is no device may be on this PLC. */
+export interface LabelContext {
+  readonly profile: Profile
+  readonly xyRadix: 8 | 16
 }
 
-async function writeRun(
-  run: readonly Entry[],
-  unknown: WriteResult | undefined,
-  options: CallOptions & WriteOptions,
-  deadline: Deadline,
-  access: MixedAccess,
-): Promise<WriteResult[]> {
-  const failed = (error: PlcError) => run.map(({ item }): WriteResult => ({ item: textOf(item), ok: false, error }))
-  if (unknown?.ok === false) {
-    const message = 'It was not written: whether the write before it was carried out is not known.'
-    return failed(new ClosedError('ABORTED', message, 'notSent', unknown.error))
-  }
-  const left = attempt(() => deadline.options('Writing'))
-  if (left instanceof PlcError) return failed(left)
-  const [first] = run
-  if (!isLabelItem(first?.item)) return access.write(run, { ...options, ...left })
-  const labels = run.map(({ item, value }) => ({ label: attempt(() => writtenLabelOf(item)), value }))
-  const good = labels.flatMap(({ label, value }) => (typeof label === 'string' ? [[label, value] as const] : []))
-  const written = await access.labels.writeList(good, left)
-  let at = 0
-  return run.map(({ item }, index): WriteResult => {
-    const label = labels[index]?.label
-    if (label instanceof PlcError) return { item: textOf(item), ok: false, error: label }
-    const result = written[at++]
-    return result?.ok === false
-      ? { item: textOf(item), ok: false, error: result.error }
-      : { item: textOf(item), ok: true }
+/**
+ * An item that no device is named by: the label it is, or why it is none, with what to do.
+ * @param error why it is no item of a device
+ */
+export function labelInstead(item: Item, error: RequestError, { profile, xyRadix }: LabelContext): AnyItem {
+  const text = addressOf(item)
+  const refused = (message: string): RefusedItem => ({
+    text: itemText(item),
+    error: message === '' ? error : new RequestError(error.code, `${error.message} ${message}`, error.field),
   })
+  const { name } = partsOf(text)
+  if (!isLabelName(name.trim())) return refused('')
+  const lack = lackOf(profile, 'readRandomLabels')
+  const isPlain = isPlainLabel(name, { xyRadix })
+  if (lack !== undefined) return refused(isPlain ? `If it is a label: ${lack.reason} ${lack.instead}` : '')
+  if (isPlain && doubtOf(profile, 'readRandomLabels') === undefined) return parsedLabel(item)
+  return refused(error.code === 'BAD_ADDRESS' ? `If it is a label, write label:${shown(text.trim())}.` : '')
 }
 
-/** A list that is written says itself how many elements it has. */
-function writtenLabelOf(item: Item): string {
-  const label = labelOf(item)
-  if (typeof label === 'string') return label
-  const message = `${textOf(item)}: a label that is written takes no count; write a list of values.`
-  throw new RequestError('BAD_OPTION', message, 'count')
-}
-
-function attempt<T>(run: () => T): T | PlcError {
+/** As `parseLabelItem`, with the error instead of the label. */
+export function parsedLabel(item: Item): LabelInItems | RefusedItem {
   try {
-    return run()
+    return parseLabelItem(item)
   } catch (error) {
-    if (error instanceof PlcError) return error
+    if (error instanceof RequestError) return { text: itemText(item), error }
     throw error
   }
 }

@@ -56,35 +56,39 @@ export class LabelRequests {
   /** Label Read Random of many labels; each has its own answer or error. */
   async random(asked: readonly AskedLabel[]): Promise<Map<AskedLabel, LabelAnswer | PlcError>> {
     const answers = new Map<AskedLabel, LabelAnswer | PlcError>()
-    const message = (some: readonly AskedLabel[]) => {
-      const { abbreviations, names } = abbreviated(some.map(({ address }) => address.name))
-      return { abbreviations, labels: names.map((name) => ({ name })) }
-    }
-    const fits = (some: readonly AskedLabel[]) => this.#fits('readRandomLabels', message(some))
     const read = async (some: readonly AskedLabel[]) => {
-      const { labels } = await this.#send(commands.readRandomLabels, message(some))
+      const { labels } = await this.#send(commands.readRandomLabels, randomMessage(some))
       some.forEach((one, at) => {
         const answer = labels[at]
         if (answer !== undefined) answers.set(one, answer)
       })
     }
-    for (const some of inRequests(asked, fits)) {
+    for (const some of this.randomRequests(asked)) {
       await this.#apart(some, read, (one, error) => answers.set(one, error))
     }
     return answers
   }
 
-  /** Array Label Read of many pieces; each has its own answer or error. `load`: words of the answer, at most `most`. */
+  /** The labels of each request of Label Read Random. */
+  randomRequests(asked: readonly AskedLabel[]): AskedLabel[][] {
+    return inRequests(asked, (some) => this.#fits('readRandomLabels', randomMessage(some)))
+  }
+
+  /** The pieces of each request of Array Label Read. `most`: bytes of the data of an answer. */
+  arrayRequests<R extends ArrayRead>(reads: readonly R[], most: number): R[][] {
+    return inRequests(
+      reads,
+      (some) =>
+        some.reduce((sum, { extent }) => sum + bytesOf(extent), 0) <= most &&
+        this.#fits('readArrayLabels', arrayMessage(some)),
+    )
+  }
+
+  /** Array Label Read of many pieces; each has its own answer or error. */
   async arrays<R extends ArrayRead>(reads: readonly R[], most: number): Promise<Map<R, LabelAnswerArea | PlcError>> {
     const answers = new Map<R, LabelAnswerArea | PlcError>()
-    const message = (some: readonly R[]) => {
-      const { abbreviations, names } = abbreviated(some.map(({ name }) => name))
-      return { abbreviations, arrays: some.map(({ extent }, at) => ({ name: names[at] ?? '', ...extent })) }
-    }
-    const fits = (some: readonly R[]) =>
-      some.reduce((sum, { extent }) => sum + bytesOf(extent), 0) <= most && this.#fits('readArrayLabels', message(some))
     const read = async (some: readonly R[]) => {
-      const { arrays } = await this.#send(commands.readArrayLabels, message(some))
+      const { arrays } = await this.#send(commands.readArrayLabels, arrayMessage(some))
       some.forEach((one, at) => {
         const answer = arrays[at]
         if (answer === undefined) return
@@ -93,7 +97,7 @@ export class LabelRequests {
         answers.set(one, isAsked ? answer : notAsked(one))
       })
     }
-    for (const some of inRequests(reads, fits)) {
+    for (const some of this.arrayRequests(reads, most)) {
       await this.#apart(some, read, (one, error) => answers.set(one, error))
     }
     return answers
@@ -121,15 +125,19 @@ export class LabelRequests {
     return error instanceof EndCodeError && error.endCode !== this.protocol.profile.refusals.command
   }
 
-  /** Writes in order. @returns the errors; a label without one was written */
-  async write(writes: readonly LabelWrite[]): Promise<Map<AskedLabel, PlcError>> {
+  /**
+   * Writes in order. What stands behind a write of unknown outcome is not sent.
+   * @param stops nothing is sent behind any failure
+   * @returns the errors; a label without one was written
+   */
+  async write(writes: readonly LabelWrite[], stops = false): Promise<Map<AskedLabel, PlcError>> {
     const errors = new Map<AskedLabel, PlcError>()
-    let unknown: PlcError | undefined
+    let before: PlcError | undefined
     for (const some of this.#writeRequests(writes)) {
-      const error = unknown === undefined ? await this.#attempt(some) : notSent(unknown)
+      const error = before === undefined ? await this.#attempt(some) : notWritten(before)
       if (error === undefined) continue
       for (const { asked } of some) errors.set(asked, error)
-      if (error.outcome === 'unknown') unknown ??= error
+      if (stops || error.outcome === 'unknown') before ??= error
     }
     return errors
   }
@@ -171,9 +179,25 @@ function notAsked({ name }: ArrayRead): ProtocolError {
   return new ProtocolError('ECHO_MISMATCH', `${name}: the PLC answered another unit or length than was asked for.`)
 }
 
-function notSent(cause: PlcError): ClosedError {
-  const message = 'It was not written: whether the write before it was carried out is not known.'
-  return new ClosedError('ABORTED', message, 'notSent', cause)
+/** Of what stands behind a write that failed. */
+export function notWritten(cause: PlcError): ClosedError {
+  const reason =
+    cause.outcome === 'unknown'
+      ? 'whether the write before it was carried out is not known.'
+      : `an earlier request of this write failed: ${cause.message}`
+  return new ClosedError('ABORTED', `It was not written: ${reason}`, 'notSent', cause)
+}
+
+/** Label Read Random of these labels, names abbreviated. */
+export function randomMessage(asked: readonly AskedLabel[]) {
+  const { abbreviations, names } = abbreviated(asked.map(({ address }) => address.name))
+  return { abbreviations, labels: names.map((name) => ({ name })) }
+}
+
+/** Array Label Read of these pieces. */
+export function arrayMessage(reads: readonly ArrayRead[]) {
+  const { abbreviations, names } = abbreviated(reads.map(({ name }) => name))
+  return { abbreviations, arrays: reads.map(({ extent }, at) => ({ name: names[at] ?? '', ...extent })) }
 }
 
 function labelsOf(writes: readonly LabelWrite[]) {

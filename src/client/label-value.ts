@@ -10,10 +10,11 @@ import {
   formatType,
   type PlcValue,
   parseType,
+  type TypeName,
   type ValueFormat,
   type ValueType,
 } from '../value/value'
-import type { LabelOptions } from './label-item'
+import type { LabelFormat } from './label-item'
 
 /** What is known of a label once the PLC has named its type. */
 export interface LabelType {
@@ -54,10 +55,30 @@ export function labelTypeOf(name: string, typeId: number, size: number): LabelTy
   return { name, typeId: data.id, isBit: data.id === BIT_TYPE_ID, size, type, written, text }
 }
 
+/** WORD and UINT are one type in GX Works3, and so are DWORD and UDINT. */
+const SAME: Readonly<Partial<Record<TypeName, TypeName>>> = { UINT: 'WORD', UDINT: 'DWORD' }
+
+/**
+ * Holds the type a user gave against the one the PLC says.
+ * @throws RequestError BAD_TYPE
+ */
+export function checkGivenType(given: ValueType | undefined, { name, type, size, text }: LabelType): void {
+  if (given === undefined) return
+  const { length } = given
+  // String(20) and String(21) take the same words (5.3 "Data length of string").
+  const words = length === undefined ? size : given.name === 'WSTRING' ? length + 1 : Math.floor(length / 2) + 1
+  if ((SAME[given.name] ?? given.name) === type.name && words === size) return
+  const message = `${name} is ${text} in the PLC, not ${formatType(given)}: leave the type out, or correct it.`
+  throw new RequestError('BAD_TYPE', message, 'type')
+}
+
 /** @throws RequestError BAD_OPTION */
-function formatOf({ name, type, size }: LabelType, code: DataCode, options: LabelOptions): ValueFormat {
-  const { encoding, asciiWordOrder } = options
-  const format: ValueFormat = encoding === undefined ? {} : { encoding }
+function formatOf({ name, type, size }: LabelType, code: DataCode, given: LabelFormat): ValueFormat {
+  const { encoding, trim, asciiWordOrder } = given
+  const format: ValueFormat = {
+    ...(encoding === undefined ? {} : { encoding }),
+    ...(trim === undefined ? {} : { trimSpaces: trim }),
+  }
   if (code === 'binary' || size === 1 || type.length !== undefined) return format
   if (asciiWordOrder === undefined) {
     throw new RequestError(
@@ -71,14 +92,9 @@ function formatOf({ name, type, size }: LabelType, code: DataCode, options: Labe
 }
 
 /** @throws RequestError BAD_OPTION; ProtocolError BAD_FIELD when the words are no value of the type */
-export function decodeLabel(
-  type: LabelType,
-  words: readonly number[],
-  code: DataCode,
-  options: LabelOptions,
-): PlcValue {
+export function decodeLabel(type: LabelType, words: readonly number[], code: DataCode, format: LabelFormat): PlcValue {
   if (type.isBit) return ((words[0] ?? 0) & 1) === 1
-  return decodeValue(type.type, words, 0, formatOf(type, code, options))
+  return decodeValue(type.type, words, 0, formatOf(type, code, format))
 }
 
 /** The elements of an array. */
@@ -87,10 +103,10 @@ export function decodeLabelArray(
   { words }: LabelArea,
   count: number,
   code: DataCode,
-  options: LabelOptions,
+  format: LabelFormat,
 ): PlcValue[] {
   if (type.isBit) return Array.from({ length: count }, (_, at) => (((words[at >> 4] ?? 0) >> (at & 15)) & 1) === 1)
-  return decodeArray(type.type, words, 0, count, formatOf(type, code, options))
+  return decodeArray(type.type, words, 0, count, formatOf(type, code, format))
 }
 
 /** Bits or bytes that so many elements take, as the array commands count them. */
@@ -101,15 +117,19 @@ export function extentOf({ isBit, size }: LabelType, count: number): Pick<LabelA
 /** What is to be written: the words of one label, or of an array. */
 export type LabelContent = { readonly data: readonly number[] } | { readonly area: LabelArea }
 
+function isList(value: PlcValue | readonly PlcValue[]): value is readonly PlcValue[] {
+  return Array.isArray(value)
+}
+
 /** @throws RequestError BAD_VALUE, BAD_OPTION, LIMIT_EXCEEDED */
 export function encodeLabel(
   type: LabelType,
   value: PlcValue | readonly PlcValue[],
   code: DataCode,
-  options: LabelOptions,
+  format: LabelFormat,
 ): LabelContent {
-  if (typeof value !== 'object') return { data: wordsOf(type, value, code, options) }
-  const elements = value.map((one) => wordsOf(type, one, code, options))
+  if (!isList(value)) return { data: wordsOf(type, value, code, format) }
+  const elements = value.map((one) => wordsOf(type, one, code, format))
   const extent = extentOf(type, value.length)
   if (extent.length > 0xffff) {
     throw new RequestError('LIMIT_EXCEEDED', `${type.name}: ${value.length} elements are too many for one request.`)
@@ -122,12 +142,12 @@ export function encodeLabel(
   return { area: { ...extent, words } }
 }
 
-function wordsOf(type: LabelType, value: PlcValue, code: DataCode, options: LabelOptions): readonly number[] {
+function wordsOf(type: LabelType, value: PlcValue, code: DataCode, format: LabelFormat): readonly number[] {
   if (type.isBit) {
     if (typeof value === 'boolean') return [value ? 1 : 0]
     throw new RequestError('BAD_VALUE', `${type.name} is a bit: write true or false, not ${String(value)}.`)
   }
   if (type.written.length === 0) throw new RequestError('BAD_VALUE', `${type.name} has no room for text.`)
-  const words = encodeValue(type.written, value, formatOf(type, code, options))
+  const words = encodeValue(type.written, value, formatOf(type, code, format))
   return [...words, ...new Array<number>(type.size - words.length).fill(0)]
 }

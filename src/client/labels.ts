@@ -1,17 +1,15 @@
 // Global labels by name: typed values out of the label commands, in as few requests as fit (SLMP reference manual 5.3).
-import { PlcError, ProtocolError } from '../errors'
-import type { Encoding, PlcValue } from '../value/value'
+import type { PlcError } from '../errors'
+import { attempt, isFine } from './attempt'
 import type { CallOptions } from './call'
 import { checkBooleans, listOf, namesOf } from './given'
-import { ArrayParts } from './label-array'
-import { type AskedLabel, askedLabel, type LabelItem, type LabelOptions } from './label-item'
-import { type LabelAnswer, type LabelCall, LabelRequests } from './label-request'
-import { decodeLabel, encodeLabel, labelTypeOf } from './label-value'
+import { askedLabel, checkLabelFormat, type LabelFormat, type LabelItem, type LabelOptions } from './label-item'
+import { type LabelValue, readLabels } from './label-read'
+import { type LabelCall, LabelRequests } from './label-request'
+import { labelEntry, labelWrites } from './label-write'
 
-export type { LabelItem, LabelOptions } from './label-item'
-
-/** What a label holds; of several elements of an array a list. */
-export type LabelValue = PlcValue | PlcValue[]
+export type { LabelFormat, LabelItem, LabelItemOptions, LabelOptions } from './label-item'
+export type { LabelValue } from './label-read'
 
 export type LabelReadResult =
   | {
@@ -62,15 +60,15 @@ export interface LabelParts {
   readonly permitWrite: () => void
   /** ms since 1970 */
   readonly time: () => number
-  /** Of the client's own format: what STRING labels hold unless a call says otherwise. */
-  readonly encoding: Encoding | undefined
+  /** The client's own, unless a call says otherwise. */
+  readonly format: LabelFormat
 }
 
-export function labelsOf(parts: LabelParts): LabelAccess {
+export function labelsOf(parts: LabelParts): Labels {
   return new LabelAccess(parts)
 }
 
-export class LabelAccess implements Labels {
+class LabelAccess implements Labels {
   readonly #parts: LabelParts
 
   constructor(parts: LabelParts) {
@@ -80,59 +78,30 @@ export class LabelAccess implements Labels {
   read(label: LabelItem, options?: LabelOptions): Promise<LabelValue>
   read(labels: readonly LabelItem[], options?: LabelOptions): Promise<LabelReadResult[]>
   async read(labels: LabelItem | readonly LabelItem[], options: LabelOptions = {}): Promise<unknown> {
-    checkBooleans(options, [])
     if (isItem(labels)) {
-      const [result] = await this.readList([labels], options)
+      const [result] = await this.#readList([labels], options)
       if (result?.ok === true) return result.value
       throw result?.error
     }
-    return this.readList(listOf(labels, 'labels'), options)
+    return this.#readList(listOf(labels, 'labels'), options)
   }
 
-  /** The options with the client's own encoding. */
-  #settled(options: LabelOptions): LabelOptions {
-    const { encoding } = this.#parts
-    return encoding === undefined ? options : { encoding, ...options }
+  /** One call: its requests, and its options with the client's own behind them. @throws RequestError BAD_OPTION */
+  #opened(options: LabelOptions): { readonly requests: LabelRequests; readonly format: LabelFormat } {
+    checkBooleans(options, ['trim'])
+    const { encoding, trim, asciiWordOrder } = options
+    const own = { encoding, trim, asciiWordOrder }
+    const given: LabelFormat = Object.fromEntries(Object.entries(own).filter(([, value]) => value !== undefined))
+    checkLabelFormat(given)
+    return { requests: new LabelRequests(this.#parts.call(options)), format: { ...this.#parts.format, ...given } }
   }
 
   /** Many labels, each with its own result. */
-  async readList(items: readonly LabelItem[], given: LabelOptions): Promise<LabelReadResult[]> {
-    const options = this.#settled(given)
-    const requests = new LabelRequests(this.#parts.call(options))
+  async #readList(items: readonly LabelItem[], options: LabelOptions): Promise<LabelReadResult[]> {
+    const { requests, format } = this.#opened(options)
     const asked = items.map((item) => attempt(() => askedLabel(item)))
-    const answers = await requests.random(asked.filter(isFine))
-    const timestamp = this.#parts.time()
-    const arrays = new ArrayParts(requests)
-    const outcomes = asked.map((one) => {
-      if (one instanceof PlcError) return one
-      const answer = answers.get(one)
-      if (answer === undefined || answer instanceof PlcError) return answer ?? missing(one)
-      return attempt(() => this.#value(one, answer, arrays, requests, options))
-    })
-    const values = await arrays.read(options)
-    return outcomes.map((outcome, at): LabelReadResult => {
-      const label = textOf(items[at])
-      if (outcome instanceof PlcError) return { label, ok: false, error: outcome, timestamp }
-      if ('value' in outcome) return { label, ok: true, ...outcome, timestamp }
-      const read = values.get(outcome.array)
-      if (read === undefined || read instanceof PlcError) {
-        return { label, ok: false, error: read ?? missing(outcome.array), timestamp }
-      }
-      return { label, ok: true, ...read, timestamp: this.#parts.time() }
-    })
-  }
-
-  #value(
-    asked: AskedLabel,
-    { typeId, data }: LabelAnswer,
-    arrays: ArrayParts,
-    { protocol }: LabelRequests,
-    options: LabelOptions,
-  ): { readonly value: LabelValue; readonly type: string } | { readonly array: AskedLabel } {
-    const type = labelTypeOf(asked.address.name, typeId, data.length)
-    if (asked.count === undefined) return { value: decodeLabel(type, data, protocol.code, options), type: type.text }
-    arrays.add(asked, type)
-    return { array: asked }
+    const outcomes = await readLabels(asked, { requests, format, time: this.#parts.time })
+    return outcomes.map((outcome, at) => ({ label: textOf(items[at]), ...outcome }))
   }
 
   write(label: string, value: LabelValue, options?: LabelOptions): Promise<void>
@@ -143,46 +112,29 @@ export class LabelAccess implements Labels {
     third?: LabelOptions,
   ): Promise<unknown> {
     if (typeof target === 'string') {
-      const [result] = await this.writeList([[target, second as LabelValue]], third ?? {})
+      const [result] = await this.#writeList([[target, second as LabelValue]], third ?? {})
       if (result?.ok === false) throw result.error
       return undefined
     }
     const names = namesOf(target, 'Labels to write are a name and its value, or an object by name')
     const entries = names.map((name) => [name, target[name] as LabelValue] as const)
-    const results = await this.writeList(entries, (second as LabelOptions | undefined) ?? {})
+    const results = await this.#writeList(entries, (second as LabelOptions | undefined) ?? {})
     return Object.fromEntries(results.map((result) => [result.label, result]))
   }
 
-  /** Many labels in their order, the same one also twice. */
-  async writeList(
+  async #writeList(
     entries: readonly (readonly [label: string, value: LabelValue])[],
-    given: LabelOptions,
+    options: LabelOptions,
   ): Promise<LabelWriteResult[]> {
-    checkBooleans(given, [])
-    const options = this.#settled(given)
     // Before anything is sent, also the reading of the data types.
     this.#parts.permitWrite()
-    const requests = new LabelRequests(this.#parts.call(options))
-    const asked = entries.map(([label, value]) =>
-      attempt(() => askedLabel(Array.isArray(value) ? { label, count: value.length } : label)),
-    )
-    const answers = await requests.random(asked.filter(isFine))
-    const writes = asked.map((one, at) => {
-      if (one instanceof PlcError) return one
-      const answer = answers.get(one)
-      if (answer === undefined || answer instanceof PlcError) return answer ?? missing(one)
-      return attempt(() => {
-        const type = labelTypeOf(one.address.name, answer.typeId, answer.data.length)
-        return {
-          asked: one,
-          content: encodeLabel(type, entries[at]?.[1] as LabelValue, requests.protocol.code, options),
-        }
-      })
-    })
+    const { requests, format } = this.#opened(options)
+    const asked = entries.map(([label, value]) => attempt(() => labelEntry(askedLabel(label), value)))
+    const writes = await labelWrites(asked, requests, format)
     const errors = await requests.write(writes.filter(isFine))
     return writes.map((write, at): LabelWriteResult => {
       const label = entries[at]?.[0] ?? ''
-      const error = write instanceof PlcError ? write : errors.get(write.asked)
+      const error = isFine(write) ? errors.get(write.asked) : write
       return error === undefined ? { label, ok: true } : { label, ok: false, error }
     })
   }
@@ -194,22 +146,4 @@ function isItem(given: LabelItem | readonly LabelItem[]): given is LabelItem {
 
 function textOf(item: LabelItem | undefined): string {
   return typeof item === 'string' ? item : String(item?.label)
-}
-
-function isFine<T>(outcome: T | PlcError): outcome is T {
-  return !(outcome instanceof PlcError)
-}
-
-function missing({ address }: AskedLabel): ProtocolError {
-  return new ProtocolError('TRUNCATED', `${address.name}: the PLC did not answer it.`)
-}
-
-/** The value, or the error that it turned out to be. */
-function attempt<T>(run: () => T): T | PlcError {
-  try {
-    return run()
-  } catch (error) {
-    if (error instanceof PlcError) return error
-    throw error
-  }
 }

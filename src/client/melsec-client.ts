@@ -21,10 +21,11 @@ import { ItemAccess } from './item-access'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
 import { type Monitor, type MonitorCall, Registration } from './monitor'
+import type { ItemExplanation } from './label-explain'
 import { checkOnDemand, type Unsolicited, unsolicitedOf } from './on-demand'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import { protocolOf, transportOf } from './parts'
-import type { Item, ItemExplanation, ReadResult, WriteOptions, WriteResult } from './plan'
+import type { Item, ReadResult, WriteOptions, WriteResult } from './plan'
 import { RemotePassword } from './remote-password'
 import { byName, plainValue } from './results'
 import type { Statistics } from './statistics'
@@ -114,7 +115,7 @@ export class MelsecClient {
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = (command, message, call) => this.request(command, message, call)
     this.control = controlOf(this.#send, settings.profile)
-    const labels = labelsOf({
+    this.labels = labelsOf({
       call: (call) => {
         const { send } = this.#call(call)
         return {
@@ -124,13 +125,11 @@ export class MelsecClient {
       },
       permitWrite: () => this.#permit('write', 'Writing'),
       time: () => settings.clock.time(),
-      encoding: settings.format.encoding,
+      format: settings.labelFormat,
     })
-    this.labels = labels
     this.#items = new ItemAccess({
       settings,
       protocol: this.#protocol,
-      labels,
       registration: this.#registration,
       call: (call) => this.#call(call),
       permit: (effect, title) => this.#permit(effect, title),

@@ -17,6 +17,7 @@ import type { OpenTransport } from '../transport/transport'
 import { checkFormat, type ValueFormat } from '../value/value'
 import { shown } from './given'
 
+import type { LabelFormat } from './label-item'
 /** How to reach a MELSEC PLC and how to speak to it. Times in milliseconds. */
 export interface MelsecClientOptions {
   /** Address or name of the PLC. */
@@ -41,6 +42,11 @@ export interface MelsecClientOptions {
   /** Digits of ZR in ASCII code; needed for ZR in ASCII code, because the manuals disagree. */
   readonly asciiZr?: 'decimal' | 'hexadecimal'
   /** How X and Y are numbered in addresses: 8 octal, 16 hexadecimal. Default: the profile's. */
+  /**
+   * Labels in ASCII code: which word of a value of two or four words comes first. The manual does not say it clearly, so
+   * such labels are refused in ASCII code without it (try it on a label whose value you know).
+   */
+  readonly asciiWordOrder?: 'low-first' | 'high-first'
   readonly xyRadix?: 8 | 16
   /** Station to speak to; default: the connected station. */
   readonly route?: Partial<Route>
@@ -99,6 +105,7 @@ export interface Settings {
   readonly gap: number
   readonly format: ValueFormat
   readonly first: number
+  readonly labelFormat: LabelFormat
   readonly longest: number
   readonly settleGap: number
   readonly clock: Clock
@@ -122,6 +129,7 @@ const NAMES = {
   asciiXy: true,
   asciiZr: true,
   xyRadix: true,
+  asciiWordOrder: true,
   route: true,
   monitoringTimer: true,
   timeout: true,
@@ -159,6 +167,7 @@ export function settle(options: MelsecClientOptions): Settings {
   oneOf('asciiXy', options.asciiXy, [undefined, 'octal', 'hexadecimal'])
   oneOf('asciiZr', options.asciiZr, [undefined, 'decimal', 'hexadecimal'])
   const profile = resolveProfile(profileGiven(options.profile ?? 'generic'), options.profileOverrides ?? undefined)
+  oneOf('asciiWordOrder', options.asciiWordOrder, [undefined, 'low-first', 'high-first'])
   const transport = oneOf('transport', options.transport ?? 'tcp', ['tcp', 'udp'])
   const frame = frameOf(profile, options.frame)
   if (options.openTransport === undefined) checkPeer(options)
@@ -182,6 +191,7 @@ export function settle(options: MelsecClientOptions): Settings {
     gap: whole('gap', options.gap ?? 64, 0, 960),
     format: options.format ?? {},
     first: whole('reconnect.first', options.reconnect?.first ?? 500, 1, LONGEST),
+    labelFormat: labelFormatOf(options),
     longest: whole('reconnect.longest', options.reconnect?.longest ?? 30_000, 1, LONGEST),
     settleGap: whole('settleGap', options.settleGap ?? 50, 0, LONGEST),
     clock: options.clock ?? realClock,
@@ -190,6 +200,15 @@ export function settle(options: MelsecClientOptions): Settings {
 }
 
 /** A misspelt option would be the default, without anybody noticing. */
+/** The PLC says the types of labels and how their words lie; only text has a code that it does not say. */
+function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }: MelsecClientOptions): LabelFormat {
+  return {
+    ...(encoding === undefined ? {} : { encoding }),
+    ...(trimSpaces === undefined ? {} : { trim: trimSpaces }),
+    ...(asciiWordOrder === undefined ? {} : { asciiWordOrder }),
+  }
+}
+
 function checkNames(prefix: string, given: object, names: Readonly<Record<string, true>>): void {
   if (typeof given !== 'object' || given === null) {
     const what = prefix === '' ? 'A client' : prefix.slice(0, -1)

@@ -6,7 +6,8 @@ import { formatType, wordsOf } from '../value/value'
 import { formatItem, type ParsedItem } from './item'
 import { planRead } from './plan-read'
 
-export interface ItemExplanation {
+/** An item that is a device. */
+export interface DeviceExplanation {
   /** The item in its shortest spelling, e.g. `D100:REAL[10]`. */
   readonly text: string
   /** Name of the device, e.g. `D`. */
@@ -40,7 +41,7 @@ export function explainItem<Head>(
   item: ParsedItem,
   protocol: ClientProtocol<Head>,
   options: AddressOptions,
-): ItemExplanation {
+): DeviceExplanation {
   const info = deviceInfo(item.address.device)
   const plan = planRead([item], protocol, { gap: 0, xyRadix: options.xyRadix })
   const { requests, notes } = plan.describe()
@@ -67,7 +68,7 @@ function firstOf({ address, bit }: ParsedItem, options: AddressOptions): string 
   return formatParsedDevice({ address, ...(bit === undefined ? {} : { bit }) }, options)
 }
 
-function sizeOf({ type, digits, count = 1 }: ParsedItem): ItemExplanation['size'] {
+function sizeOf({ type, digits, count = 1 }: ParsedItem): DeviceExplanation['size'] {
   if (digits !== undefined) return { count: 4 * digits * count, unit: 'bit' }
   return type.name === 'BOOL' ? { count, unit: 'bit' } : { count: wordsOf(type) * count, unit: 'word' }
 }

@@ -22,6 +22,8 @@ export type ReadResult =
       readonly timestamp: number
       /** The array was read by more than one request: its values may be of different moments. */
       readonly torn?: true
+      /** Of a label: its data type, as the PLC says it, e.g. `REAL`. */
+      readonly type?: string
     }
   | { readonly item: string; readonly ok: false; readonly error: PlcError; readonly timestamp: number }
 

@@ -18,14 +18,14 @@ export type Send<Head> = <T>(exchange: Exchange<Head, T>) => Promise<T>
 /** One request as people see it. */
 export interface RequestDescription {
   readonly command: CommandName
-  /** Form of the device specification. */
-  readonly form: DeviceForm
+  /** Form of the device specification; label commands have none. */
+  readonly form?: DeviceForm
   readonly subcommand: number
   readonly points: number
-  /** Bytes of the whole frame. */
-  readonly requestBytes: number
-  /** Bytes of the whole frame of a success. */
-  readonly responseBytes: number
+  /** Bytes of the whole frame; missing while it depends on types of labels that the PLC has not said yet. */
+  readonly requestBytes?: number
+  /** Bytes of the whole frame of a success; missing likewise. */
+  readonly responseBytes?: number
   /** Texts of the items it is for. */
   readonly items: readonly string[]
   /** e.g. `Read (word units): D100 to D149, 50 points` */
@@ -249,7 +249,7 @@ export interface PlanDescription {
 /** A plan as text: one line for each request, then the notes. */
 export function planText({ requests, notes }: PlanDescription): string {
   const lines = requests.map(({ text, requestBytes, responseBytes, items }, i) => {
-    const bytes = `${requestBytes} bytes out, ${responseBytes} in`
+    const bytes = `${requestBytes ?? 'unknown'} bytes out, ${responseBytes ?? 'unknown'} in`
     return `${i + 1}. ${text} (${bytes}) for ${items.join(', ')}`
   })
   return [...lines, ...notes].join('\n')

@@ -139,6 +139,11 @@ export class WritePlan<Head> {
     return units.map((unit) => prepareWrite(this.#context, alone(this.#areas.protocol, unit)))
   }
 
+  /** Why an entry is not written; undefined when it will be. */
+  errorOf(entry: number): PlcError | undefined {
+    return this.#errors.get(entry)
+  }
+
   describe(): PlanDescription {
     const requests = this.#steps.flatMap(({ units, prepared }) => {
       const items = [...new Set(units.map(({ entry }) => this.#text(entry)))]

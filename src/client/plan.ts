@@ -9,7 +9,7 @@ export {
   type RefusedItem,
   tryParseItem,
 } from './item'
-export { explainItem, type ItemExplanation } from './plan-explain'
+export { type DeviceExplanation, explainItem } from './plan-explain'
 export { planRead, type ReadPlan, type ReadResult } from './plan-read'
 export type { ReadShapeOptions as PlanReadOptions } from './plan-read-shape'
 export type { PlanDescription, RequestDescription, Send } from './plan-request'

@@ -48,10 +48,13 @@ export interface LabelAddress {
 
 const SEGMENT = /^([^.,%[\]\s\p{Cc}]+)(?:\[\s*(\d{1,10}(?:\s*,\s*\d{1,10}){0,2})\s*\])?$/u
 
+/** Characters of a text in a message. */
+const SHOWN = 100
+
 function badLabel(text: string, reason: string): RequestError {
   return new RequestError(
     'BAD_ADDRESS',
-    `'${text}' is not the name of a label: ${reason}. Write it as in Line1.Speed, Line1.Values[2] or Table[1,0,3].`,
+    `'${text.slice(0, SHOWN)}' is not the name of a label: ${reason.slice(0, SHOWN)}. Write it as in Line1.Speed, Line1.Values[2] or Table[1,0,3].`,
   )
 }
 

@@ -199,7 +199,7 @@ describe.each(['tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 'udp 3E binary q', 'ud
         items.forEach((_, i) => {
           plc.memory.setWord('D', i * 40, 1000 + i)
         })
-        const bad = ['D99999', 'D100:REAAL', 'nonsense', 'T5', 'M999999']
+        const bad = ['D99999', 'D100:REAAL', 'Q1', 'T5', 'M999999']
         const results = await client.read([...items.slice(0, 30), ...bad, ...items.slice(30)])
         expect(results.slice(0, 30).map(brief)).toEqual(items.slice(0, 30).map((_, i) => 1000 + i))
         expect(results.slice(35).map(brief)).toEqual(items.slice(30).map((_, i) => 1030 + i))
@@ -228,7 +228,7 @@ describe.each(['tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 'udp 3E binary q', 'ud
           'D2:REAL': 1.5,
           D99999: 3,
           'D10:STRING(2)': 'abc',
-          nonsense: 5,
+          Q1: 5,
           M3: true,
           'D20[2]': [1],
         })
@@ -238,7 +238,7 @@ describe.each(['tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 'udp 3E binary q', 'ud
           'D2:REAL',
           'D99999',
           'D10:STRING(2)',
-          'nonsense',
+          'Q1',
           'M3',
           'D20[2]',
         ])

@@ -139,7 +139,7 @@ describe('read instead', () => {
     ['more than one registration takes', 'tcp 4E binary iq-r', Array.from({ length: 97 }, (_, i) => `D${i * 3}`), '96'],
     ['contacts of timers', 'tcp 4E binary iq-r', ['D0', 'TS0', 'LTS3'], 'cannot be'],
     ['nothing', 'tcp 4E binary iq-r', [], ''],
-    ['nothing that is an item', 'tcp 4E binary iq-r', ['nonsense'], ''],
+    ['nothing that is an item', 'tcp 4E binary iq-r', ['Q1'], ''],
   ]
   test.each(unregistered)('%s', (_why, text, items, note) =>
     withLine(text, {}, async (line) => {

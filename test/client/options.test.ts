@@ -29,6 +29,7 @@ describe('defaults', () => {
       allowControl: false,
       gap: 64,
       format: {},
+      labelFormat: {},
       first: 500,
       longest: 30_000,
       settleGap: 50,

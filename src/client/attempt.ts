@@ -1,0 +1,16 @@
+// What may fail with a PlcError, as a value: for lists in which one bad entry must not spoil the others.
+import { PlcError } from '../errors'
+
+/** The value, or the error that it turned out to be. */
+export function attempt<T>(run: () => T): T | PlcError {
+  try {
+    return run()
+  } catch (error) {
+    if (error instanceof PlcError) return error
+    throw error
+  }
+}
+
+export function isFine<T>(outcome: T | PlcError): outcome is T {
+  return !(outcome instanceof PlcError)
+}
