@@ -231,7 +231,11 @@ describe('refusals', () => {
     if (scanned === undefined) throw new Error('the answer is not whole')
     expect(scanned.used).toBe(length)
     expect(() => asked.decode(scanned.frame)).toThrow(
-      expect.objectContaining({ endCode: 0x5b, message: expect.stringContaining('abnormal code 10H') }),
+      expect.objectContaining({
+        endCode: 0x5b,
+        abnormalCode: 0x10,
+        message: expect.stringContaining('abnormal code 10H'),
+      }),
     )
   })
 

@@ -1,4 +1,4 @@
-import { describe, expect, test } from '@jest/globals'
+import { describe, expect, jest, test } from '@jest/globals'
 import { commands } from '../../src/melsec/commands/commands'
 import { endCodes, explainEndCode, languages } from '../../src/melsec/end-code'
 import { endCodeGroups } from '../../src/melsec/end-codes/groups'
@@ -174,6 +174,23 @@ describe('end code texts', () => {
       expect(group.to).toBeLessThanOrEqual(0xffff)
       expect(group.from).toBeGreaterThan(sorted[index - 1]?.to ?? -1)
     })
+  })
+
+  test('the texts are loaded with the first code somebody asks for, and once', () => {
+    let loads = 0
+    jest.isolateModules(() => {
+      jest.doMock('../../src/melsec/end-codes/tables', () => {
+        loads += 1
+        return jest.requireActual('../../src/melsec/end-codes/tables')
+      })
+      const library = require('../../src/index') as typeof import('../../src/index')
+      expect(loads).toBe(0)
+      expect(library.explainEndCode(0xc059)?.exact).toBe(true)
+      expect(library.explainEndCode(0x7601)?.exact).toBe(true)
+      expect(library.endCodes().length).toBeGreaterThan(400)
+    })
+    jest.dontMock('../../src/melsec/end-codes/tables')
+    expect(loads).toBe(1)
   })
 
   test('a code nobody knows is undefined', () => {
