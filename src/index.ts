@@ -29,7 +29,6 @@ export {
   type WritePlan,
 } from './client/melsec-client'
 export type { Monitor } from './client/monitor'
-export type { RequestExplanation } from './client/named-request'
 export type { MelsecClientOptions } from './client/options'
 export {
   type DeviceExplanation,
