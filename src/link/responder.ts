@@ -19,6 +19,11 @@ export class Responder<Head> {
     this.#bodyLength = bodyLength
   }
 
+  /** Bytes of an unfinished frame that are kept: never more than a frame can have. */
+  get buffered(): number {
+    return this.#received.length
+  }
+
   /**
    * Takes a chunk and returns the requests that are complete with it.
    * Bytes that are no such frame are thrown away and nothing is answered: that is what a PLC does with a wrong data

@@ -74,6 +74,11 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     return this.#waiting.length
   }
 
+  /** Bytes of an unfinished frame that are kept: never more than `maxFrame`. */
+  get buffered(): number {
+    return this.#received.length
+  }
+
   submit(job: J, now: number): void {
     this.#waiting.push(job)
     this.#fill(now)

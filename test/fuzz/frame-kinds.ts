@@ -1,0 +1,153 @@
+/** Every frame there is, with the protocol that speaks it, in the terms of the fuzz. */
+
+import type { DataCode } from '../../src/codec/codec'
+import { RequestError } from '../../src/errors'
+import { jwCommands } from '../../src/jw/commands'
+import { type ExplainJwOptions, explainJwFrame } from '../../src/jw/explain-frame'
+import { jwProtocol } from '../../src/jw/protocol'
+import type { Framing, HeadProtocol, RequestFrame } from '../../src/link/link'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible'
+import { aCompatibleProtocol } from '../../src/melsec/a-compatible-protocol'
+import { type ExplainFrameOptions, explainFrame } from '../../src/melsec/explain-frame'
+import { frame3e } from '../../src/melsec/frame-3e'
+import { frame4cFormat5 } from '../../src/melsec/frame-4c'
+import { type FrameName, type ProfileId, profiles } from '../../src/melsec/profile'
+import { MelsecProtocol } from '../../src/melsec/protocol'
+import { ownStation } from '../../src/melsec/route'
+import { lenient } from '../simulator/support'
+import { type Sample, samplesOf, samplesOfHead } from './corpus'
+
+const CODES: readonly DataCode[] = ['binary', 'ascii']
+
+/** A frame with everything that reads it. */
+export interface Spoken<Head> {
+  readonly framing: Framing<Head>
+  readonly samples: readonly Sample<Head>[]
+  readonly code: DataCode
+  /** The PLC's side: where a request ends, for frames that do not say it, and what it is. */
+  readonly requestLength: (head: Head, soFar: Buffer) => number | undefined
+  readonly readRequest: (frame: RequestFrame<Head>) => unknown
+  /** In words; `request` is the one that is answered. */
+  readonly explain: (bytes: Buffer, request: Buffer | undefined) => unknown
+  /** Simulated PLCs that take it. */
+  readonly plc?: { readonly profile: ProfileId; readonly frames: readonly FrameName[] }
+}
+
+/** Hides the type of the head: each kind has its own. */
+export interface FrameKind {
+  readonly name: string
+  use<T>(run: <Head>(spoken: Spoken<Head>) => T): T
+}
+
+function kind<Head>(name: string, make: () => Spoken<Head>): FrameKind {
+  return { name, use: (run) => run(make()) }
+}
+
+type SlmpName = Exclude<FrameName, '1E'>
+
+function slmp(frame: SlmpName, code: DataCode): FrameKind {
+  return kind(`${frame} ${code}`, () => {
+    const protocol = new MelsecProtocol({
+      framing: frame3e(frame, code),
+      head: { route: ownStation, timer: 0 },
+      profile: lenient(profiles['iq-r']),
+      code,
+      asciiZr: 'decimal',
+    })
+    return {
+      framing: protocol.framing,
+      samples: samplesOf(protocol),
+      code,
+      requestLength: () => undefined,
+      readRequest: (received) => protocol.readRequest(received),
+      explain: explaining({ profile: 'iq-r' }),
+      plc: { profile: 'iq-r', frames: [frame] },
+    }
+  })
+}
+
+function explaining(options: ExplainFrameOptions): Spoken<unknown>['explain'] {
+  return (bytes, request) => explainFrame(bytes, { ...options, ...(request === undefined ? {} : { request }) })
+}
+
+function format5(sumCheck: boolean): FrameKind {
+  return kind(`4C format 5${sumCheck ? '' : ' without sum check'}`, () => {
+    const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
+    const protocol = new MelsecProtocol({
+      framing: frame4cFormat5({ sumCheck }),
+      head: { route },
+      profile: lenient(profiles.q),
+      code: 'binary',
+    })
+    return {
+      framing: protocol.framing,
+      samples: samplesOf(protocol),
+      code: 'binary',
+      requestLength: () => undefined,
+      readRequest: (received) => protocol.readRequest(received),
+      explain: explaining({ frame: '4C', profile: 'q' }),
+    }
+  })
+}
+
+function aCompatible(code: DataCode, family: 'iq-f' | 'fx3'): FrameKind {
+  return kind(`1E ${code} ${family}`, () => {
+    const protocol = aCompatibleProtocol({ code, family, asciiXy: 'octal', oddBits: 'padded' })
+    return headed(protocol, aCompatibleCommands, code, {
+      explain: explaining({ frame: '1E', code, profile: family }),
+      plc: { profile: family, frames: ['1E'] },
+    })
+  })
+}
+
+function jw(header: 'none' | 'zero40'): FrameKind {
+  return kind(`JW, header ${header}`, () => {
+    const explain = (bytes: Buffer, request: Buffer | undefined) => {
+      const options: ExplainJwOptions = request === undefined ? {} : { request }
+      return explainJwFrame(bytes, options)
+    }
+    return headed(jwProtocol({ header }), jwCommands, 'binary', { explain })
+  })
+}
+
+function headed<Head>(
+  protocol: HeadProtocol<Head>,
+  list: Parameters<typeof samplesOfHead>[1],
+  code: DataCode,
+  rest: Pick<Spoken<Head>, 'explain' | 'plc'>,
+): Spoken<Head> {
+  return {
+    framing: protocol.framing,
+    samples: samplesOfHead(protocol, list, code),
+    code,
+    requestLength: (head, soFar) => protocol.requestLength(head, soFar),
+    readRequest: (received) => protocol.readRequest(received),
+    ...rest,
+  }
+}
+
+/** Every frame that a family speaks, so that a new one is here without being written down. */
+const names: readonly FrameName[] = [...new Set(Object.values(profiles).flatMap(({ frames }) => frames))]
+
+function kindsOf(name: FrameName): FrameKind[] {
+  if (name !== '1E') return CODES.filter((code) => exists(name, code)).map((code) => slmp(name, code))
+  return CODES.flatMap((code) => (['iq-f', 'fx3'] as const).map((family) => aCompatible(code, family)))
+}
+
+/** Not every frame has both codes. */
+function exists(name: SlmpName, code: DataCode): boolean {
+  try {
+    return frame3e(name, code) !== undefined
+  } catch (error) {
+    if (error instanceof RequestError) return false
+    throw error
+  }
+}
+
+export const frameKinds: readonly FrameKind[] = [
+  ...names.flatMap(kindsOf),
+  format5(true),
+  format5(false),
+  jw('none'),
+  jw('zero40'),
+]

@@ -1,0 +1,55 @@
+/**
+ * Random and damaged frames of every kind, in both directions. `npm run fuzz` takes a million of each kind and another
+ * seed; here there are few and always the same, so that the tests stay quick and never fail by chance.
+ */
+import { describe, expect, test } from '@jest/globals'
+import { jwCommands } from '../../src/jw/commands'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible'
+import { commands } from '../../src/melsec/commands/commands'
+import { frameKinds } from './frame-kinds'
+import { Random } from './random'
+import { type FuzzResult, fuzz, type Tally } from './run'
+
+const { FUZZ_FRAMES, FUZZ_SEED } = process.env
+const options = { seed: Number(FUZZ_SEED ?? 1), frames: Number(FUZZ_FRAMES ?? 5000), every: 200 }
+/** ms for a frame of 64 KB, with a garbage collection and a busy machine in between. */
+const LONGEST = 2000
+const MOST_GROWN = 32 * 2 ** 20
+
+describe.each(frameKinds)('$name', (kind) => {
+  test('gives values or ProtocolErrors, in bounded memory and time', () => {
+    const found = fuzz(kind, options)
+    if (FUZZ_FRAMES !== undefined) process.stdout.write(report(found))
+    for (const tally of [found.requests, found.answers]) {
+      expect(tally.longest).toBeLessThan(LONGEST)
+      // The damage is of use only when it comes as far as the decoders, and is found there.
+      expect(tally.values).toBeGreaterThan(options.frames / 10)
+      expect(tally.protocolErrors).toBeGreaterThan(options.frames / 10)
+    }
+    expect(found.grown).toBeLessThan(MOST_GROWN)
+    expect(namesOf(kind.name)).toEqual([...found.commands].sort())
+  }, 3_600_000)
+})
+
+/** Every command of the set, so that none is left out because no message of it could be made. */
+function namesOf(kind: string): string[] {
+  const list = kind.startsWith('1E') ? aCompatibleCommands : kind.startsWith('JW') ? jwCommands : commands
+  return Object.keys(list).sort()
+}
+
+function report({ kind, grown, requests, answers }: FuzzResult): string {
+  const of = (side: string, { frames, values, endCodes, protocolErrors, incomplete, longest, ms, buffered }: Tally) =>
+    `${kind} ${side}: ${frames} frames, ${Math.round(frames / (ms / 1000))}/s; ${values} values, ${endCodes} end codes, ` +
+    `${protocolErrors} ProtocolErrors, ${incomplete} incomplete; longest ${longest.toFixed(1)} ms, most kept ${buffered} bytes\n`
+  return `${of('requests', requests)}${of('answers', answers)}${kind}: heap ${(grown / 2 ** 20).toFixed(2)} MB more\n`
+}
+
+test('the same seed and place give the same numbers, another seed others', () => {
+  const random = new Random()
+  const from = (seed: number, place: number) => {
+    random.restart(seed, place)
+    return Array.from({ length: 8 }, () => random.next())
+  }
+  expect(from(1, 5)).toEqual(from(1, 5))
+  expect(new Set([from(1, 5), from(1, 6), from(2, 5), from(0, 0)].map(String)).size).toBe(4)
+})
