@@ -103,5 +103,6 @@ export {
   type ValueFormat,
   type ValueOf,
   type ValueType,
+  valueOfBytes,
   valueTypes,
 } from './value/value'

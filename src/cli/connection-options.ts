@@ -160,13 +160,15 @@ export function addConnectionOptions(command: Command): Command {
     .addOption(jsonOption())
 }
 
+export const encodingOption = (description: string) => choice('--encoding <name>', description, ENCODINGS)
+
 /** Adds the options that say how words become values. */
 export function addFormatOptions(command: Command): Command {
   return command
     .optionsGroup('Values:')
     .addOption(choice('--word-order <order>', 'order of the words of a value', ORDERS))
     .addOption(choice('--byte-order <order>', 'order of the bytes of a word', ORDERS))
-    .addOption(choice('--encoding <name>', 'encoding of STRING', ENCODINGS))
+    .addOption(encodingOption('encoding of STRING'))
 }
 
 function radix(text: string): 8 | 16 {
@@ -270,6 +272,8 @@ export async function withClient<T>(
   options: ConnectionOptions & FormatOptions,
   allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'>,
   work: (client: MelsecClient) => Promise<T>,
+  /** Before it connects: to miss nothing that comes at once. */
+  prepare: (client: MelsecClient) => void = () => {},
 ): Promise<T> {
   const password = await passwordOf(terminal, options)
   const client = createMelsecClient({ ...clientOptions(options, allow), ...given({ password }) })
@@ -279,6 +283,7 @@ export async function withClient<T>(
     })
   }
   try {
+    prepare(client)
     // A deadline of its own: it holds the attempt and the answer that proves the connection, and says why it failed.
     await client.connect({ timeout: options.connectTimeout + options.timeout })
     return await work(client)

@@ -6,6 +6,7 @@ import { decodeCommand } from './decode'
 import { exitCodeHelp, exitCodes } from './exit-code'
 import { explainCommand } from './explain'
 import { identifyCommand } from './identify'
+import { listenCommand } from './listen'
 import { profilesCommand } from './profiles'
 import { readCommand } from './read'
 import { simulateCommand } from './simulate'
@@ -17,6 +18,7 @@ const COMMANDS: readonly MakeCommand[] = [
   readCommand,
   writeCommand,
   controlCommand,
+  listenCommand,
   simulateCommand,
   decodeCommand,
   profilesCommand,

@@ -15,12 +15,15 @@ import { addCodeOptions, frameOption, jsonOption, profileOption, whole } from '.
 import { endCodeText } from './end-code'
 import { exitCodes } from './exit-code'
 import { faultHelp, faultOf } from './fault-option'
+import { interruption } from './interruption'
+import { onDemandWords, sendAgainAndAgain, takeLines } from './on-demand'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
 
 const examples = [
   'simulate --plant',
   'simulate --profile iq-f --port 5010',
+  'simulate --on-demand 1,2,3 --on-demand-every 500',
   'simulate --port 0 --no-udp --fault delay:ms=500 --fault endCode:endCode=C056,commands=readWords,times=1',
 ]
 
@@ -43,6 +46,9 @@ interface SimulateOptions {
   readonly scanTime?: number
   readonly maxConnections?: number
   readonly resetAllowed?: boolean
+  readonly onDemand?: readonly number[]
+  readonly onDemandEvery: number
+  readonly interactive?: boolean
   readonly log?: boolean
   readonly json?: boolean
 }
@@ -74,6 +80,15 @@ export const simulateCommand: MakeCommand = (run) => {
     .addOption(new Option('--scan-time <ms>', 'time from a request to its answer in RUN').argParser(whole(0, 60_000)))
     .addOption(new Option('--max-connections <number>', 'connection entries').argParser(whole(1, 1000)))
     .option('--reset-allowed', 'CPU parameter "Remote Reset"')
+    .addOption(
+      new Option('--on-demand <words>', 'send On-demand to every client again and again, e.g. 1,2,0xFFFF').argParser(
+        onDemandWords,
+      ),
+    )
+    .addOption(
+      new Option('--on-demand-every <ms>', 'pause before each of them').default(1000).argParser(whole(10, 3_600_000)),
+    )
+    .option('--interactive', 'take lines from the standard input: "ondemand 1 2 3" sends On-demand once')
     .option('--log', 'print every request')
     .addOption(jsonOption())
     .addHelpText('after', faultHelp)
@@ -92,7 +107,12 @@ async function simulate(terminal: Terminal, options: SimulateOptions): Promise<n
   if (options.plant === true) startDemoPlant(plc)
   if (options.log === true) logRequests(terminal, plc)
   show(terminal, plc, options)
+  const ends = [
+    ...(options.onDemand === undefined ? [] : [sendAgainAndAgain(plc, options.onDemand, options.onDemandEvery)]),
+    ...(options.interactive === true ? [takeLines(terminal, plc)] : []),
+  ]
   await interrupted
+  for (const end of ends) end()
   await plc.close()
   return exitCodes.ok.code
 }
@@ -123,13 +143,6 @@ function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
     ...(maxConnections === undefined ? {} : { maxConnections }),
     ...(resetAllowed === undefined ? {} : { resetAllowed }),
   }
-}
-
-/** Resolves at Ctrl-C, and when another program asks this one to end. */
-function interruption(): Promise<void> {
-  return new Promise((resolve) => {
-    for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const) process.once(signal, () => resolve())
-  })
 }
 
 function show(terminal: Terminal, plc: PlcSimulator, options: SimulateOptions): void {

@@ -1,4 +1,5 @@
 /** Typed values over words of 16 bits: the public names of this room. */
+export { valueOfBytes } from './bytes'
 export { decodeArray, decodeValue, encodeArray, encodeValue } from './convert'
 export { checkFormat, type Encoding, formatOptions, type ValueFormat } from './format'
 export {

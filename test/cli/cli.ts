@@ -34,7 +34,8 @@ export class Running {
   readonly #gone: Promise<unknown>
   #heard: () => void = () => {}
 
-  constructor(args: readonly string[], variables: Readonly<Record<string, string>> = {}, input = '') {
+  /** @param input `null`: the standard input stays open, see `type` */
+  constructor(args: readonly string[], variables: Readonly<Record<string, string>> = {}, input: string | null = '') {
     this.#child = spawn(process.execPath, args, { cwd: root, env: environment(variables), stdio: 'pipe' })
     this.#child.stdout?.on('data', (chunk: Buffer) => {
       this.#out += chunk.toString()
@@ -46,7 +47,12 @@ export class Running {
     })
     this.#gone = once(this.#child, 'close')
     void this.#gone.then(() => this.#heard())
-    this.#child.stdin?.end(input)
+    if (input !== null) this.#child.stdin?.end(input)
+  }
+
+  /** A line on the standard input. */
+  type(line: string): void {
+    this.#child.stdin?.write(`${line}\n`)
   }
 
   /** Resolves when the program has printed this. */
@@ -93,6 +99,11 @@ export class Running {
 /** Starts `melsec-jw` with these arguments. */
 export function start(...args: readonly string[]): Running {
   return new Running([MAIN, ...args])
+}
+
+/** As `start`, with a standard input to type on. */
+export function startTyping(...args: readonly string[]): Running {
+  return new Running([MAIN, ...args], {}, null)
 }
 
 /** Runs `melsec-jw` to its end. */

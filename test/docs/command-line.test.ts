@@ -55,7 +55,9 @@ describe('the line', () => {
   beforeAll(() => bench.open())
   afterAll(() => bench.close())
 
-  test.each(lines.filter(({ args }) => args[0] !== 'simulate'))('$line ($page) runs', async ({ args }) => {
+  /** They go on until Ctrl-C. */
+  const endless = ['simulate', 'listen']
+  test.each(lines.filter(({ args }) => !endless.includes(args[0] ?? '')))('$line ($page) runs', async ({ args }) => {
     const { exit, text } = await run(args.map((arg) => bench.addressOf(arg)))
     expect(`${exit} ${text}`).toMatch(/^0 /)
   })
