@@ -64,7 +64,7 @@ const stopping: Texts = [
 
 /** After these the inverter does not take the data, and goes on as it was. */
 const ignoring: Texts = [
-  'Inverter communication: {}. The inverter does not take the data, and does not stop.',
+  'Inverter communication: {}. The inverter does not take the data, and does not stop with an alarm.',
   'インバータ通信: {}。インバータはデータを受け付けませんが、アラーム停止しません。',
   '变频器通信：{}。变频器不接收该数据，但不报警停止。',
   '變頻器通訊：{}。變頻器不接收該資料，但不警報停止。',
@@ -86,10 +86,10 @@ const answers: readonly Answer[] = [
     0x7620,
     'inverterLine',
     stopping,
-    'error H0, computer NAK: the request was wrong more often than retries are permitted',
-    'エラーH0(計算機NAKエラー)です。要求データが許容リトライ回数を超えて誤っていました',
-    '错误H0（计算机NAK错误），请求数据超过允许重试次数仍然有误',
-    '錯誤H0（電腦NAK錯誤），請求資料超過允許重試次數仍然有誤',
+    'error H0, computer NAK: the request data are wrong',
+    'エラーH0(計算機NAKエラー)です。要求データに誤りがあります',
+    '错误H0（计算机NAK错误），请求数据有误',
+    '錯誤H0（電腦NAK錯誤），請求資料有誤',
   ],
   [
     0x7621,
@@ -136,7 +136,7 @@ const answers: readonly Answer[] = [
     '错误H5（溢出错误），接收完成之前收到了下一数据',
     '錯誤H5（溢位錯誤），接收完成之前收到了下一資料',
   ],
-  [0x7626, 'inverterLine', undefinedError, 'H6', 'H6', 'H6', 'H6'],
+  [0x7626, 'inverterManual', undefinedError, 'H6', 'H6', 'H6', 'H6'],
   [
     0x7627,
     'program',
@@ -146,8 +146,8 @@ const answers: readonly Answer[] = [
     '错误H7（字符错误），收到了0～9、A～F、控制代码以外的字符',
     '錯誤H7（字元錯誤），收到了0～9、A～F、控制碼以外的字元',
   ],
-  [0x7628, 'inverterLine', undefinedError, 'H8', 'H8', 'H8', 'H8'],
-  [0x7629, 'inverterLine', undefinedError, 'H9', 'H9', 'H9', 'H9'],
+  [0x7628, 'inverterManual', undefinedError, 'H8', 'H8', 'H8', 'H8'],
+  [0x7629, 'inverterManual', undefinedError, 'H9', 'H9', 'H9', 'H9'],
   [
     0x762a,
     'inverterMode',
@@ -175,9 +175,9 @@ const answers: readonly Answer[] = [
     '错误HC（数据范围错误），参数或运行频率等的值超出设置范围',
     '錯誤HC（資料範圍錯誤），參數或運轉頻率等的值超出設定範圍',
   ],
-  [0x762d, 'inverterLine', undefinedError, 'HD', 'HD', 'HD', 'HD'],
-  [0x762e, 'inverterLine', undefinedError, 'HE', 'HE', 'HE', 'HE'],
-  [0x762f, 'inverterLine', undefinedError, 'HF', 'HF', 'HF', 'HF'],
+  [0x762d, 'inverterManual', undefinedError, 'HD', 'HD', 'HD', 'HD'],
+  [0x762e, 'inverterManual', undefinedError, 'HE', 'HE', 'HE', 'HE'],
+  [0x762f, 'inverterManual', undefinedError, 'HF', 'HF', 'HF', 'HF'],
 ]
 
 type Fault = 'mode' | 'instruction' | 'range'
@@ -190,19 +190,19 @@ const faults: Readonly<Record<Fault, Texts>> = {
 
 const patterns = {
   first: [
-    'IVMC instruction: send data 1 was refused ({}); send data 2 was taken. The inverter does not stop.',
+    'IVMC instruction: send data 1 was refused ({}); send data 2 was taken. The inverter does not stop with an alarm.',
     'IVMC命令: 送信データ1は{}です。送信データ2は受け付けられました。インバータはアラーム停止しません。',
     'IVMC指令：发送数据1为{}，发送数据2已接收。变频器不报警停止。',
     'IVMC指令：傳送資料1為{}，傳送資料2已接收。變頻器不警報停止。',
   ],
   second: [
-    'IVMC instruction: send data 2 was refused ({}); send data 1 was taken. The inverter does not stop.',
+    'IVMC instruction: send data 2 was refused ({}); send data 1 was taken. The inverter does not stop with an alarm.',
     'IVMC命令: 送信データ2は{}です。送信データ1は受け付けられました。インバータはアラーム停止しません。',
     'IVMC指令：发送数据2为{}，发送数据1已接收。变频器不报警停止。',
     'IVMC指令：傳送資料2為{}，傳送資料1已接收。變頻器不警報停止。',
   ],
   both: [
-    'IVMC instruction: send data 1 ({}) and send data 2 ({}) were refused. The inverter does not stop.',
+    'IVMC instruction: send data 1 ({}) and send data 2 ({}) were refused. The inverter does not stop with an alarm.',
     'IVMC命令: 送信データ1は{}、送信データ2は{}です。どちらも受け付けられません。インバータはアラーム停止しません。',
     'IVMC指令：发送数据1为{}，发送数据2为{}，均未接收。变频器不报警停止。',
     'IVMC指令：傳送資料1為{}，傳送資料2為{}，均未接收。變頻器不警報停止。',

@@ -230,6 +230,12 @@ export const remedies = {
     '请在计算机链接运行模式下写入；运行中不能更改的项目请在变频器停止时写入。',
     '請在電腦連結運轉模式下寫入；運轉中不能變更的項目請在變頻器停止時寫入。',
   ],
+  inverterManual: [
+    'Look the error code up in the manual of the inverter.',
+    'エラーコードをインバータのマニュアルで確認してください。',
+    '请在变频器的手册中查询该错误代码。',
+    '請在變頻器的手冊中查詢該錯誤代碼。',
+  ],
   modbusRequest: [
     'Correct the request of the MODBUS master.',
     'MODBUSマスタの要求内容を修正してください。',
