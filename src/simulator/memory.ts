@@ -1,7 +1,8 @@
 // Device memory of the simulated PLC, with the ranges of its profile.
 import { type DeviceAddress, type DeviceExtension, type DeviceName, deviceInfo, devices } from '../melsec/device'
 import { type Profile, profiles } from '../melsec/profile'
-import { type FurtherRefusals, furtherRefusals, Refusal, requestErrors } from './refusal'
+import { DeviceAddresses } from './device-addresses'
+import { type FurtherRefusals, furtherRefusals, Refusal } from './refusal'
 import {
   devicesOfDoubleWord,
   devicesOfWords,
@@ -51,6 +52,7 @@ export class DeviceMemory {
   readonly #profile: Profile
   readonly #further: FurtherRefusals
   readonly #regions = new Map<string, Region>()
+  readonly #addresses = new DeviceAddresses()
 
   constructor(profile: Profile, latch: readonly DeviceName[], extensions: ExtensionMemory = {}) {
     this.#profile = profile
@@ -92,10 +94,20 @@ export class DeviceMemory {
   }
 
   /**
+   * The address by which indirect specification reaches a device.
+   * @throws Refusal when it is not there
+   */
+  addressOf(address: DeviceAddress): number {
+    const { region, start } = this.place(address, 'word', 1)
+    return this.#addresses.of(region.info.name, start)
+  }
+
+  /**
    * Where the devices are.
    * @throws Refusal when one of them is not there
    */
   place(address: DeviceAddress, unit: AccessUnit, points: number): Place {
+    if (address.indirect === true) return this.place(this.#indirect(address), unit, points)
     const region = this.#regionOf(address)
     const start = address.number + (address.index === undefined ? 0 : this.#indexValue(address.index))
     const count =
@@ -121,10 +133,6 @@ export class DeviceMemory {
 
   #regionOf(address: DeviceAddress): Region {
     const { device, extension } = address
-    if (address.indirect === true) {
-      // How ADRSET codes an address into two words is not in the manuals.
-      throw new Refusal(requestErrors.content, 'indirect addresses (@) are not simulated')
-    }
     const region = this.#regions.get(
       extension === undefined ? device : keyOf(device, this.#indexed(address, extension)),
     )
@@ -133,6 +141,11 @@ export class DeviceMemory {
     throw extension === undefined
       ? new Refusal(deviceName, `there is no device ${device}`)
       : new Refusal(notThere, `there is no ${device} behind ${JSON.stringify(extension)}`)
+  }
+
+  /** `@D0`: D0 and D1 hold the address, low word first; `@(D0)Z4`: the two words behind D0 by Z4. */
+  #indirect({ indirect: _, ...holder }: DeviceAddress): DeviceAddress {
+    return this.#addresses.deviceAt(this.readDoubleWord(holder))
   }
 
   /** `J1Z0\W0`, `U3Z0\G0`: the register is added to the network or the upper digits of the start I/O number. */

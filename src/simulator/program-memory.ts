@@ -94,6 +94,25 @@ export class ProgramMemory {
     this.#inRange(() => this.#write(target, value, format))
   }
 
+  /**
+   * The address of a word device, as the instruction ADRSET gives it, for indirect specification: `@D0` reaches what
+   * the address in D0 and D1 says. 32 bits without a meaning of their own, valid in this simulated PLC only.
+   */
+  addressOf(source: string): number {
+    const { address } = this.#wordDevice(source)
+    return this.#inRange(() => this.#memory.addressOf(address))
+  }
+
+  /**
+   * The instruction ADRSET: stores the address of `source` in two words, low word first.
+   * @example memory.adrset('D100', 'D0') // a client's @D0 is D100 from now on
+   */
+  adrset(source: string, destination: string): void {
+    const stored = this.addressOf(source)
+    const { address } = this.#wordDevice(destination)
+    this.#inRange(() => this.#memory.writeDoubleWord(address, stored))
+  }
+
   /** Sets devices to 0: those that are not latched, or all but the special relays and registers. */
   clear(scope: 'unlatched' | 'all' = 'all'): void {
     this.#memory.clear(scope)
@@ -150,6 +169,14 @@ export class ProgramMemory {
       throw new RequestError('BAD_VALUE', `The value needs more than the ${4 * digits} bits of K${digits}.`)
     }
     this.#memory.writeBits(address, bits.slice(0, 4 * digits))
+  }
+
+  #wordDevice(text: string): ParsedDevice {
+    const parsed = parseDevice(text, { xyRadix: this.#profile.xyRadix })
+    const { address, bit, digits } = parsed
+    const modified = address.extension ?? address.index ?? address.indirect ?? bit ?? digits
+    if (modified === undefined && deviceInfo(address.device).unit === 'word') return parsed
+    throw new RequestError('BAD_ADDRESS', `${text}: ADRSET takes a word device as it is, e.g. D100.`, 'address')
   }
 
   #target(text: string, type: string | undefined): Target {

@@ -102,6 +102,10 @@ export interface PlcSimulator {
   restart(ms?: number): void
   /** `memory.read`: `plc.read('D100:REAL')` */
   read(item: string, format?: ValueFormat): PlcValue
+  /** `memory.addressOf`: the address of a word device for indirect specification, as ADRSET stores it. */
+  addressOf(source: string): number
+  /** `memory.adrset`: stores that address in two words; `plc.adrset('D100', 'D0')` makes `@D0` reach D100. */
+  adrset(source: string, destination: string): void
   /** `memory.write`: `plc.write('D100:REAL', 1.5)` */
   write(item: string, value: PlcValue, format?: ValueFormat): void
   /**
@@ -230,6 +234,14 @@ class Simulator implements PlcSimulator {
 
   write(item: string, value: PlcValue, format?: ValueFormat): void {
     this.memory.write(item, value, format)
+  }
+
+  addressOf(source: string): number {
+    return this.memory.addressOf(source)
+  }
+
+  adrset(source: string, destination: string): void {
+    this.memory.adrset(source, destination)
   }
 
   sendOnDemand(data: OnDemandData, options: OnDemandOptions = {}): number {
