@@ -57,7 +57,7 @@ export interface Identity {
   /** CPUs that have this code: more certain than the name. Empty when the code is in neither manual. */
   readonly models: readonly string[]
   readonly series?: string
-  /** The profile that fits. */
+  /** The profile that fits. A port cannot be told from the code: where the client's own profile is for such a CPU, it stays. */
   readonly profile?: ProfileId
 }
 
@@ -100,7 +100,7 @@ export function controlOf(send: Send, profile: Profile): Control {
   }
 }
 
-export async function identify(send: Send, options?: CallOptions): Promise<Identity> {
+export async function identify(send: Send, own: Profile, options?: CallOptions): Promise<Identity> {
   const { model, modelCode } = await send(commands.readTypeName, {}, options)
   const known = modelOf(modelCode)
   return {
@@ -108,7 +108,7 @@ export async function identify(send: Send, options?: CallOptions): Promise<Ident
     modelCode,
     models: known?.models ?? [],
     ...(known?.series === undefined ? {} : { series: known.series }),
-    ...(known?.profile === undefined ? {} : { profile: known.profile }),
+    ...(known === undefined ? {} : { profile: own.cpu === known.profile ? own.id : known.profile }),
   }
 }
 

@@ -6,7 +6,7 @@ import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import { extendUnitOf, type ModulePlace } from '../melsec/extend-unit'
 import type { Head3e } from '../melsec/frame-3e'
-import type { Profile } from '../melsec/profile'
+import { lackOf, type Profile } from '../melsec/profile'
 import type { ClientProtocol, ExchangeOptions } from '../melsec/protocol'
 import { isPasswordRefusal, isPortLocked } from '../melsec/remote-password'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
@@ -345,7 +345,7 @@ export class MelsecClient {
 
   /** Who the PLC says it is, with what its model code means. */
   identify(options?: CallOptions): Promise<Identity> {
-    return identify(this.#send, options)
+    return identify(this.#send, this.profile, options)
   }
 
   /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns the round trip in ms. */
@@ -369,9 +369,11 @@ export class MelsecClient {
     await this.#send(commands.clearError, {}, options)
   }
 
-  /** Read Type Name: harmless, and known to every CPU at least well enough to refuse it, which is an answer too. */
+  /** Read Type Name, or one word where the port has no such command: harmless, and a refusal is an answer, too. */
   #probe(): Exchange<Head3e, unknown> {
-    return this.#protocol.exchange(commands.readTypeName, {})
+    return lackOf(this.#protocol.profile, 'readTypeName') === undefined
+      ? this.#protocol.exchange(commands.readTypeName, {})
+      : this.#protocol.exchange(commands.readWords, { head: { device: 'D', number: 0 }, points: 1 })
   }
 }
 

@@ -11,7 +11,7 @@ import {
   resolveProfile,
   type TransportName,
 } from '../melsec/profile'
-import { completeRoute, type Route } from '../melsec/route'
+import { completeRoute, ownStation, type Route } from '../melsec/route'
 import { type Clock, realClock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
 import { checkFormat, type ValueFormat } from '../value/value'
@@ -178,7 +178,7 @@ export function settle(options: MelsecClientOptions): Settings {
     profile,
     frame,
     code: oneOf('code', options.code ?? profile.code, ['binary', 'ascii']),
-    route: completeRoute(options.route),
+    route: reachable(profile, completeRoute(options.route)),
     timer: timerOf(profile, options.monitoringTimer),
     xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
     xyUnknown: profile.id === 'generic' && (options.xyRadix ?? options.profileOverrides?.xyRadix) === undefined,
@@ -280,6 +280,16 @@ function timerOf(profile: Profile, given: number | undefined): number {
     throw new RequestError('BAD_OPTION', `${profile.title} takes monitoringTimer 0 only.`, 'monitoringTimer')
   }
   return ms / TIMER_UNIT
+}
+
+/** Ports that reach nothing else would refuse every request, or carry it out on the connected station. */
+function reachable({ title, reach }: Profile, route: Route): Route {
+  const { network, station, moduleIo, multidrop } = route
+  const own = network === ownStation.network && station === ownStation.station && multidrop === ownStation.multidrop
+  const moduleTaken = !reach.ownModuleIoOnly || reach.ownModuleIo.includes(moduleIo)
+  if (reach.stations === 'networks' || (own && moduleTaken)) return route
+  const message = `${title} reaches the connected station only: leave route out (${reach.source}).`
+  throw new RequestError('UNSUPPORTED', message, 'route')
 }
 
 function inFlightOf(profile: Profile, transport: TransportName, frame: FrameName, given: number | undefined): number {

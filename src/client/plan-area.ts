@@ -5,7 +5,8 @@ import { type CommandName, commands } from '../melsec/commands/commands'
 import { type DeviceAddress, type DeviceInfo, deviceInfo } from '../melsec/device'
 import type { DeviceUse } from '../melsec/device-access'
 import { chooseForm } from '../melsec/form'
-import { type DeviceForm, doubtOf } from '../melsec/profile'
+import { tallyOf } from '../melsec/limit'
+import { type DeviceForm, doubtOf, type Profile } from '../melsec/profile'
 import { boundsOf, fits, type Load, largest, type PlanProtocol } from './plan-limit'
 
 /** What a cell of an area is: one bit, one word (of a bit device its 16 points), or all words of a device of several. */
@@ -31,6 +32,8 @@ export interface Area {
   readonly base: number
   readonly numbersPerCell: 1 | 16
   readonly bitsPerCell: number
+  /** Field of a load for its points, where a limit counts this device in another way than the others. */
+  readonly tally?: string
   readonly ways: Ways
 }
 
@@ -82,8 +85,13 @@ export function areaOf(protocol: PlanProtocol, direction: Direction, kind: CellK
     base: isModified(address) ? address.number : 0,
     numbersPerCell: kind === 'word' && info.unit === 'bit' ? 16 : 1,
     bitsPerCell: kind === 'bit' ? 1 : kind === 'word' ? 16 : 16 * (info.wordsPerDevice ?? 2),
+    ...(countedTwice(protocol.profile, info) ? { tally: tallyOf(info.name) } : {}),
     ways: waysOf(protocol, direction, kind, template),
   }
+}
+
+function countedTwice({ limits }: Profile, { name }: DeviceInfo): boolean {
+  return limits.some(({ twice }) => twice?.includes(name) === true)
 }
 
 function tried(protocol: PlanProtocol, address: DeviceAddress, use: DeviceUse): DeviceForm | RequestError {
@@ -146,13 +154,20 @@ function blockOf(
   return attempt({ command: 'readBlock', list, points: 1 }) === form ? list : undefined
 }
 
+/** A load of so many points, with what a limit counts of them beside. */
+export function withTally({ tally }: Area, load: Load, points: number): Load {
+  return tally === undefined ? load : { ...load, [tally]: points }
+}
+
 /** Points of the random command for cells in a row: words in pairs, because a pair counts as one point. */
 export function randomLoad(area: Area, cells: number): Load {
   switch (area.ways.random) {
-    case 'words':
-      return { words: cells % 2, doubleWords: Math.floor(cells / 2) }
+    case 'words': {
+      const [words, doubleWords] = [cells % 2, Math.floor(cells / 2)]
+      return withTally(area, { words, doubleWords }, words + doubleWords)
+    }
     case 'doubleWords':
-      return { doubleWords: cells }
+      return withTally(area, { doubleWords: cells }, cells)
     default:
       return { bits: cells }
   }

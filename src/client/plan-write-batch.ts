@@ -1,7 +1,7 @@
 // Which units share a request. The order in which they were given is kept: a bit that says "the data are there" must not
 // be written before the data.
 import { lackOf } from '../melsec/profile'
-import { type Area, directLoad, groupOf, limitedUnit, randomCommandOf, randomLoad } from './plan-area'
+import { type Area, directLoad, groupOf, limitedUnit, randomCommandOf, randomLoad, withTally } from './plan-area'
 import { added, boundsOf, fits, type Load, type PlanProtocol } from './plan-limit'
 import type { WriteUnit } from './plan-write-unit'
 
@@ -89,7 +89,7 @@ function randomFits(protocol: PlanProtocol, { area, content }: WriteUnit, load: 
 }
 
 function loadOf({ area, from, to, content }: WriteUnit): Load {
-  return content.kind === 'masked' ? { words: to - from } : randomLoad(area, to - from)
+  return content.kind === 'masked' ? withTally(area, { words: to - from }, to - from) : randomLoad(area, to - from)
 }
 
 /** Bits of a word that is read and written back already cost nothing more. */
@@ -98,7 +98,7 @@ function newCells(units: readonly WriteUnit[], { area, from, to }: WriteUnit): L
   for (let cell = from; cell < to; cell++) {
     if (!units.some((unit) => unit.area === area && unit.from <= cell && cell < unit.to)) words++
   }
-  return { words }
+  return withTally(area, { words }, words)
 }
 
 function closed({ units, row, load }: OpenBatch): Batch {

@@ -160,6 +160,15 @@ function checkDevice(profile: Profile, command: Command, { address, use, path }:
       path,
     )
   }
+  for (const index of [address.index, address.extensionIndex]) {
+    if (index === undefined || index.number <= profile.lastIndex[index.register]) continue
+    throw new RequestError(
+      'OUT_OF_RANGE',
+      `${index.register}${index.number} cannot modify an address on ${profile.title}: ` +
+        `${index.register}0 to ${index.register}${profile.lastIndex[index.register]} can.`,
+      path,
+    )
+  }
   const exclusion = exclusionOf(profile, command.name as CommandName, address.device)
   if (exclusion !== undefined) {
     throw new RequestError(

@@ -3,6 +3,7 @@
 import { type DataCode, encode, type Shape, writerOf } from '../codec/codec'
 import { RequestError } from '../errors'
 import { type CommandName, commands } from './commands/commands'
+import type { DeviceName } from './device'
 import type { DeviceForm, Profile } from './profile'
 
 /**
@@ -41,8 +42,12 @@ export interface Limit {
 export interface LimitRule {
   readonly commands: readonly CommandName[]
   readonly forms: readonly DeviceForm[]
+  /** Data codes it holds in; without it both. */
+  readonly codes?: readonly DataCode[]
   /** Devices it is about; without it all. */
   readonly of?: LimitedUnit
+  /** Points of these devices count twice. */
+  readonly twice?: readonly DeviceName[]
   /** Weights; without it every point counts once ({@link pointFields}). */
   readonly sum?: Weights
   /** In binary code and for a device specification that is not extended. */
@@ -72,14 +77,22 @@ export const pointFields: Readonly<Partial<Record<CommandName, Weights>>> = {
   writeBlock: { 'wordBlocks.values': 1, 'bitBlocks.values': 1 },
 }
 
+const TALLY = 'points of '
+
+/** Name in a sum for the points of one device, whatever field they stand in. */
+export function tallyOf(device: DeviceName): string {
+  return `${TALLY}${device}`
+}
+
 function factorOf(rule: LimitRule, form: DeviceForm, code: DataCode): number {
   const extended = form === 'extendedShort' || form === 'extendedLong'
   return (code === 'ascii' ? (rule.asciiFactor ?? 1) : 1) * (extended ? (rule.extendedFactor ?? 1) : 1)
 }
 
 function limitOf(rule: LimitRule, command: CommandName, form: DeviceForm, code: DataCode): Limit {
-  const sum = rule.sum ?? (rule.unit === 'bytes' ? {} : pointFields[command])
-  if (sum === undefined) throw new Error(`limit rule for ${command} without a sum`)
+  const points = rule.sum ?? (rule.unit === 'bytes' ? {} : pointFields[command])
+  if (points === undefined) throw new Error(`limit rule for ${command} without a sum`)
+  const sum = { ...points, ...Object.fromEntries((rule.twice ?? []).map((device) => [tallyOf(device), 1])) }
   // "Counts n times, at most max" is the same as "at most max / n", and the figure a user can check against.
   const max = Math.floor(rule.max / factorOf(rule, form, code))
   const { min = 1, unit, endCode, source, of } = rule
@@ -124,7 +137,11 @@ export function limitsOf(
   if (limits === undefined) {
     const concerns = (rule: LimitRule) => of === undefined || rule.of === undefined || rule.of === of
     const rules = profile.limits.filter(
-      (rule) => rule.commands.includes(command) && rule.forms.includes(form) && concerns(rule),
+      (rule) =>
+        rule.commands.includes(command) &&
+        rule.forms.includes(form) &&
+        concerns(rule) &&
+        rule.codes?.includes(code) !== false,
     )
     limits = withoutHigher(rules.map((rule) => limitOf(rule, command, form, code)))
     known.set(key, limits)
@@ -149,7 +166,15 @@ function isMeasurable(value: unknown): value is Measurable {
   return typeof value === 'object' && value !== null
 }
 
+/** Addresses of a device in the lists of a message. */
+function tallied(message: Measurable, name: string): number {
+  const lists = Object.values(message).filter((value): value is unknown[] => Array.isArray(value))
+  return lists.flat().filter((item) => isMeasurable(item) && isMeasurable(item.device) && item.device.device === name)
+    .length
+}
+
 function sizeAt(message: Measurable, path: string): number | undefined {
+  if (path.startsWith(TALLY)) return tallied(message, path.slice(TALLY.length))
   const [field, inner] = path.split('.')
   const value = message[field ?? '']
   if (inner === undefined) return sizeOf(value)
@@ -211,7 +236,7 @@ export function brokenLimit(
 function formula(limit: Limit): string {
   if (limit.unit === 'bytes') return 'command, subcommand and data'
   return Object.entries(limit.sum)
-    .map(([path, weight]) => (weight === 1 ? path : `${weight} x ${path}`))
+    .map(([path, weight]) => (path.startsWith(TALLY) ? `${path} again` : weight === 1 ? path : `${weight} x ${path}`))
     .join(' + ')
 }
 

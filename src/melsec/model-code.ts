@@ -77,9 +77,6 @@ const rCpus: readonly Row[] = [
   [0x4852, 'R16PSFCPU'],
   [0x4853, 'R32PSFCPU'],
   [0x4854, 'R120PSFCPU'],
-  [0x4860, 'RJ72GF15-T2'],
-  [0x4861, 'RJ72GF15-T2 (redundant system, single line)'],
-  [0x4862, 'RJ72GF15-T2 (redundant system, dual line)'],
   [0x4891, 'R08SFCPU'],
   [0x4892, 'R16SFCPU'],
   [0x4893, 'R32SFCPU'],
@@ -87,6 +84,12 @@ const rCpus: readonly Row[] = [
   [0x48a0, 'R00CPU'],
   [0x48a1, 'R01CPU'],
   [0x48a2, 'R02CPU'],
+]
+
+const remoteHeads: readonly Row[] = [
+  [0x4860, 'RJ72GF15-T2'],
+  [0x4861, 'RJ72GF15-T2 (redundant system, single line)'],
+  [0x4862, 'RJ72GF15-T2 (redundant system, dual line)'],
 ]
 
 /** `FX5U-32MR/ES` and so on: one row per output and power supply type, one code per number of I/O points. */
@@ -134,9 +137,10 @@ export const modelCodes: ReadonlyMap<number, Model> = new Map([
   ...entries([[0x0230, 'QS001CPU']], { series: 'QS', profile: 'q' }),
   ...entries(lCpus, { series: 'L', profile: 'l' }),
   ...entries(rCpus, { series: 'iQ-R', profile: 'iq-r' }),
+  ...entries(remoteHeads, { series: 'iQ-R', profile: 'remote-head' }),
   ...entries(fx5Cpus(), { series: 'iQ-F', profile: 'iq-f' }),
   ...entries([[0x4e01, 'MI5122-VW']], { series: 'MELIPC', profile: 'generic' }),
-  ...entries([[0x0642, 'NZ2GF-ETB']], { series: 'CC-Link IE Field', profile: 'generic' }),
+  ...entries([[0x0642, 'NZ2GF-ETB']], { series: 'CC-Link IE Field', profile: 'nz2gf-etb' }),
   ...entries([[0x48c2, 'L16HCPU']], { series: 'iQ-L', profile: 'iq-r', source: 'measured by others' }),
 ])
 

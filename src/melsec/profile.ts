@@ -6,14 +6,33 @@ import type { CommandName } from './commands/commands'
 import type { DeviceName, ExtensionKind } from './device'
 import type { LimitRule, LimitUnit } from './limit'
 import { fx3 } from './profiles/fx3'
+import { fx5Enet } from './profiles/fx5-enet'
 import { generic } from './profiles/generic'
 import { iqF } from './profiles/iq-f'
 import { iqR } from './profiles/iq-r'
 import { l } from './profiles/l'
+import { nz2gfEtb } from './profiles/nz2gf-etb'
 import { withOverrides } from './profiles/override'
 import { q } from './profiles/q'
+import { qBuiltIn, qE71 } from './profiles/q-ports'
+import { remoteHead } from './profiles/remote-head'
 
-export type ProfileId = 'iq-r' | 'iq-f' | 'q' | 'l' | 'fx3' | 'generic'
+/** Every profile's id, in the order people look for them. */
+export const profileIds = [
+  'iq-r',
+  'iq-f',
+  'fx5-enet',
+  'q',
+  'q-built-in',
+  'q-e71',
+  'l',
+  'fx3',
+  'remote-head',
+  'nz2gf-etb',
+  'generic',
+] as const
+
+export type ProfileId = (typeof profileIds)[number]
 export type FrameName = '3E' | '4E' | '1E'
 export type TransportName = 'tcp' | 'udp'
 /** Device specification: the subcommands 000x, 0002/0003 (iQ-R), 0080/0081 and 0082/0083. */
@@ -68,6 +87,39 @@ export interface InFlight {
   readonly tcp: number
   /** Messages the receive buffer holds: over UDP with serial numbers 1 + (udpBuffer / connections in use), rounded down. */
   readonly udpBuffer: number
+  /** The same figure of each port this profile stands for; `udpBuffer` is the lowest. Empty where there is no pipelining. */
+  readonly ports: readonly { readonly port: string; readonly buffer: number }[]
+  readonly source: string
+}
+
+/** Where requests can go from the port. */
+export interface Reach {
+  /** `connected`: the connected station only; `networks`: other stations too, where the port is in a network with them. */
+  readonly stations: 'connected' | 'networks'
+  /** Module I/O numbers that mean the CPU of the connected station. */
+  readonly ownModuleIo: readonly number[]
+  /** The port takes no other module I/O number. */
+  readonly ownModuleIoOnly: boolean
+  readonly source: string
+}
+
+/** Connections a port has at the same time. */
+export interface Connections {
+  readonly most: number
+  readonly source: string
+}
+
+/** Last index register of each kind that can modify an address. */
+export interface LastIndex {
+  readonly Z: number
+  readonly LZ: number
+  readonly source: string
+}
+
+/** Where the CPU tells whether it runs: b0 to b3 of a register, 0 RUN, 2 STOP, 3 PAUSE. */
+export interface StatusRegister {
+  readonly device: 'SD'
+  readonly number: number
   readonly source: string
 }
 
@@ -86,6 +138,8 @@ export interface RemoteFacts {
   readonly clearModes: readonly (0 | 1 | 2)[]
   /** Conditions of a remote reset, for people. */
   readonly reset: string
+  /** Absent: it is not known where, or the frame does not reach it; remote control cannot be verified then. */
+  readonly status?: StatusRegister
   readonly source: string
 }
 
@@ -123,6 +177,8 @@ export interface Profile {
   readonly title: string
   /** CPUs and modules it stands for. */
   readonly series: string
+  /** Profile of the same CPUs when nothing is known about the port: what a model code suggests. */
+  readonly cpu: ProfileId
   /** How X and Y are numbered in the engineering tool: `X17` is octal on iQ-F, hexadecimal elsewhere. */
   readonly xyRadix: 8 | 16
   readonly frames: readonly FrameName[]
@@ -149,6 +205,9 @@ export interface Profile {
   readonly ranges: DeviceRanges
   readonly refusals: Refusals
   readonly inFlight: InFlight
+  readonly connections: Connections
+  readonly reach: Reach
+  readonly lastIndex: LastIndex
   readonly monitoringTimer: MonitoringTimer
   /** Subcommands other than the computed ones. */
   readonly subcommands: Readonly<Partial<Record<CommandName, Subcommand>>>
@@ -178,19 +237,24 @@ export interface ProfileOverrides {
   readonly ranges?: Readonly<Partial<Record<DeviceName, number>>>
   readonly subcommands?: Readonly<Partial<Record<CommandName, number>>>
   readonly inFlight?: { readonly tcp?: number; readonly udpBuffer?: number }
+  /** ZR counts twice in Read Random and Entry Monitor Device: the High Performance model QCPU does so. */
+  readonly zrCountsDouble?: boolean
 }
 
 /** Every profile by its id. */
 export const profiles: Readonly<Record<ProfileId, Profile>> = {
   'iq-r': iqR,
   'iq-f': iqF,
+  'fx5-enet': fx5Enet,
   q,
+  'q-built-in': qBuiltIn,
+  'q-e71': qE71,
   l,
   fx3,
+  'remote-head': remoteHead,
+  'nz2gf-etb': nz2gfEtb,
   generic,
 }
-
-export const profileIds: readonly ProfileId[] = ['iq-r', 'iq-f', 'q', 'l', 'fx3', 'generic']
 
 function isProfileId(id: string): id is ProfileId {
   return Object.hasOwn(profiles, id)

@@ -50,8 +50,8 @@ export function protocolOver1e(options: SlmpOver1eOptions): ClientProtocol<Head3
   return new SlmpOver1e(options)
 }
 
-function familyOf({ id, title }: Profile): ACompatibleFamilyId {
-  if (isFamily(id)) return id
+function familyOf({ cpu, title }: Profile): ACompatibleFamilyId {
+  if (isFamily(cpu)) return cpu
   throw new RequestError('BAD_OPTION', `${title} has no 1E frame here: use 3E.`, 'frame')
 }
 

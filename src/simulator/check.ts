@@ -54,15 +54,13 @@ function accessEndCode(profile: Profile, { address, use }: Pick<FoundDevice, 'ad
   return modified === undefined ? further.device : requestErrors.content
 }
 
-/** Module I/O numbers of this station's CPU: itself, control CPU, and CPU No. 1 of iQ-R, Q and L. */
-const OWN_CPU: readonly number[] = [ownStation.moduleIo, 0x3e0, 0x3d0]
-
 /** Why a request is not for this PLC, or undefined when it is. */
 export function routeRefusal(profile: Profile, route: Route): Refusal | undefined {
   const { station, module } = furtherRefusals[profile.id]
   if (route.network !== ownStation.network || route.station !== ownStation.station || route.multidrop !== 0) {
     return new Refusal(station, `no way to network ${route.network}, station ${route.station}`)
   }
-  const own = profile.id === 'iq-f' ? route.moduleIo === ownStation.moduleIo : OWN_CPU.includes(route.moduleIo)
-  return own ? undefined : new Refusal(module, `module I/O ${route.moduleIo.toString(16).toUpperCase()} is no CPU here`)
+  return profile.reach.ownModuleIo.includes(route.moduleIo)
+    ? undefined
+    : new Refusal(module, `module I/O ${route.moduleIo.toString(16).toUpperCase()} is no CPU here`)
 }

@@ -210,10 +210,12 @@ export class DeviceMemory {
 }
 
 /** A profile that knows no ranges is given those of iQ-R: a simulated PLC needs some memory. */
-function pointsOf(profile: Profile): Readonly<Partial<Record<DeviceName, number>>> {
-  return profile.id === 'generic'
-    ? { ...profiles['iq-r'].ranges.points, ...profile.ranges.points }
-    : profile.ranges.points
+function pointsOf({ id, ranges, absentDevices }: Profile): Readonly<Partial<Record<DeviceName, number>>> {
+  if (Object.keys(profiles[id].ranges.points).length > 0) return ranges.points
+  const usual = Object.entries(profiles['iq-r'].ranges.points).filter(
+    ([name]) => !absentDevices.some((absent) => absent === name),
+  )
+  return { ...Object.fromEntries(usual), ...ranges.points }
 }
 
 function keyOf(device: DeviceName, extension: DeviceExtension): string {

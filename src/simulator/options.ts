@@ -41,7 +41,7 @@ export interface PlcSimulatorOptions {
   readonly model?: { readonly name: string; readonly code: number }
   /**
    * Connections (TCP, or streams in memory) at the same time; a further one is accepted and ended at once, as a PLC
-   * does whose entries are all taken. Default 16, iQ-F 8.
+   * does whose entries are all taken. Default: the profile's.
    */
   readonly maxConnections?: number
   /** ms for which an entry stays taken after its connection has ended. Default 0. */
@@ -105,19 +105,21 @@ export interface Settings {
   readonly clock: Clock
 }
 
-/** R08CPU, FX5U-32MR/ES, Q03UDVCPU, L02CPU. */
+/** R08CPU, FX5U-32MR/ES, Q03UDVCPU, Q06HCPU, L02CPU, RJ72GF15-T2, NZ2GF-ETB. */
 const MODEL_CODES: Readonly<Record<ProfileId, number>> = {
   'iq-r': 0x4801,
   'iq-f': 0x4a21,
+  'fx5-enet': 0x4a21,
   q: 0x0366,
+  'q-built-in': 0x0366,
+  'q-e71': 0x0042,
   l: 0x0541,
+  'remote-head': 0x4860,
+  'nz2gf-etb': 0x0642,
   // What 1E tells of itself (a-compatible-type.ts); it has no names.
   fx3: 0xf3,
   generic: 0x4801,
 }
-
-/** FX5 communication manual 6.2: 8 connections of the CPU module. The others background: open settings 1 to 16. */
-const CONNECTIONS = { 'iq-f': 8, other: 16 } as const
 
 const MODEL_LENGTH = 16
 
@@ -138,11 +140,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     tcp: options.tcp ?? {},
     udp: options.udp ?? {},
     model: modelFor(profile.id, options.model),
-    maxConnections: whole(
-      'maxConnections',
-      options.maxConnections ?? CONNECTIONS[profile.id === 'iq-f' ? 'iq-f' : 'other'],
-      1,
-    ),
+    maxConnections: whole('maxConnections', options.maxConnections ?? profile.connections.most, 1),
     entryRelease: milliseconds('entryRelease', options.entryRelease ?? 0),
     otherStations: oneOf('otherStations', options.otherStations ?? 'refuse', ['refuse', 'silence']),
     resetAllowed: options.resetAllowed ?? false,

@@ -1,6 +1,6 @@
 // The addresses of the demo plant, as data: the program, the demo flow, the examples and the documentation read them.
 import { RequestError } from '../errors'
-import type { ProfileId } from '../melsec/profile'
+import { type ProfileId, profiles } from '../melsec/profile'
 import type { ValueFormat } from '../value/value'
 
 /** Which of the two demo PLCs: an iQ-R, or an FX5U with octal outputs. */
@@ -93,9 +93,9 @@ export const demoPlantTags: Readonly<Record<PlantVariant, readonly PlantTag[]>> 
   'iq-f': tagsOf('iq-f'),
 }
 
-/** The tags that fit a profile: those with octal inputs and outputs for iQ-F. */
+/** The tags that fit a profile: those with octal inputs and outputs for iQ-F, whatever its port. */
 export function plantVariantOf(profile: ProfileId): PlantVariant {
-  return profile === 'iq-f' ? 'iq-f' : 'iq-r'
+  return profiles[profile].cpu === 'iq-f' ? 'iq-f' : 'iq-r'
 }
 
 /**

@@ -27,10 +27,15 @@ const remotePassword: PasswordRefusals = { wrong: 0xc200, last: 0xc200, lockedOu
 const passwordRefusals: Readonly<Record<ProfileId, PasswordRefusals>> = {
   'iq-r': authentication,
   'iq-f': authentication,
+  'remote-head': authentication,
   generic: authentication,
   q: remotePassword,
+  'q-built-in': remotePassword,
+  'q-e71': remotePassword,
   l: remotePassword,
-  // A 1E frame has no command for it.
+  'nz2gf-etb': remotePassword,
+  // They have no command for it.
+  'fx5-enet': authentication,
   fx3: remotePassword,
 }
 

@@ -53,6 +53,8 @@ const cpuModules: FurtherRefusals = {
   module: 0x4b02,
 }
 
+const qAndL: FurtherRefusals = { ...cpuModules, device: 0xc05b }
+
 // 47.4: C05B device that cannot be accessed, C05F request that the target cannot execute, C056 address.
 const iqF: FurtherRefusals = {
   device: 0xc05b,
@@ -66,9 +68,14 @@ const iqF: FurtherRefusals = {
 export const furtherRefusals: Readonly<Record<ProfileId, FurtherRefusals>> = {
   'iq-r': cpuModules,
   generic: cpuModules,
-  q: { ...cpuModules, device: 0xc05b },
-  l: { ...cpuModules, device: 0xc05b },
+  'remote-head': cpuModules,
+  q: qAndL,
+  'q-built-in': qAndL,
+  'q-e71': qAndL,
+  l: qAndL,
+  'nz2gf-etb': qAndL,
   'iq-f': iqF,
+  'fx5-enet': iqF,
   // None of them is reached: the port checks 1E requests itself.
   fx3: iqF,
 }

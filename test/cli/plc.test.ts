@@ -382,7 +382,7 @@ describe('wrong use', () => {
     [['read', 'D0', '--plc', '127.0.0.1:1', '--port', '2'], /given twice, as 1 and as 2/],
     [['read', 'D0', '--plc', '[::1]'], /Which port of ::1\?/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--port', 'x'], /whole number from 1 to 65535/],
-    [['read', 'D0', '--plc', '127.0.0.1:1', '--profile', 'q9'], /iq-r, iq-f, q, l, fx3, generic/],
+    [['read', 'D0', '--plc', '127.0.0.1:1', '--profile', 'q9'], /iq-r, iq-f, fx5-enet, .*generic/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--profile', 'iq-f', '--frame', '4E'], /has no 4E frame/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--network', '1'], /network 1 has stations 1 to 120/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--module-io', 'zz'], /hexadecimal/],

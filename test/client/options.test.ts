@@ -57,6 +57,16 @@ describe('defaults', () => {
     expect(settle({ ...peer, profileOverrides: { xyRadix: 8 } })).toMatchObject({ xyRadix: 8, xyUnknown: false })
   })
 
+  test('the CPUs of the connected station are reached by the built-in port of one of them', () => {
+    expect(settle({ ...peer, profile: 'q-built-in', route: { moduleIo: 0x3e1 } }).route.moduleIo).toBe(0x3e1)
+    expect(settle({ ...peer, profile: 'q-e71', route: { network: 1, station: 3 } }).route.station).toBe(3)
+    expect(settle({ ...peer, profile: 'iq-f', route: { moduleIo: 0x3ff } }).route.moduleIo).toBe(0x3ff)
+  })
+
+  test('the Ethernet module of an iQ-F takes a monitoring timer, the CPU module does not', () => {
+    expect(settle({ ...peer, profile: 'fx5-enet', monitoringTimer: 500 }).timer).toBe(2)
+  })
+
   test('a part of the route is completed', () => {
     expect(settle({ ...peer, route: { network: 1, station: 3 } }).route).toEqual({
       ...ownStation,
@@ -86,9 +96,19 @@ describe('refused', () => {
     ['port 0', { port: 0 }, 'port', 'port is 0'],
     ['a port that is text', { port: '5007' }, 'port', 'port is 5007'],
     ['another transport', { transport: 'serial' }, 'transport', 'must be tcp or udp'],
-    ['another profile', { profile: 'fx9' }, 'profile', 'Choose one of: iq-r, iq-f, q, l, fx3, generic'],
+    ['another profile', { profile: 'fx9' }, 'profile', `Choose one of: ${profileIds.join(', ')}`],
     ['another frame', { frame: '2E' }, 'frame', 'has no 2E frame'],
     ['a frame the family lacks', { profile: 'iq-f', frame: '4E' }, 'frame', 'has no 4E frame: use 3E'],
+    ...(['iq-f', 'fx5-enet', 'q-built-in'] as const).map(
+      (profile): [string, Record<string, unknown>, string, string] => [
+        `another station by a port that reaches none: ${profile}`,
+        { profile, route: { network: 1, station: 3 } },
+        'route',
+        'reaches the connected station only: leave route out',
+      ],
+    ),
+    ['CPU No. 2 of an iQ-F', { profile: 'iq-f', route: { moduleIo: 0x3e1 } }, 'route', 'the connected station only'],
+    ['a route with a field less', { profile: 'q-built-in', route: { multidrop: 3, moduleIo: 1 } }, 'route', 'only'],
     ['another code', { code: 'hex' }, 'code', 'must be binary or ascii'],
     ['another radix', { xyRadix: 10 }, 'xyRadix', 'must be 8 or 16'],
     ['a station that does not exist', { route: { network: 1, station: 200 } }, 'route.station', ''],

@@ -83,6 +83,26 @@ const iqF: Table = {
   'writeBlock, points of one block': { short: [756, 376], extendedShort: [756, 376], extendedLong: [756, 376] },
 }
 
+/** FX5 38.1, table of the Ethernet module; its own figures are in binary code, subcommand 0000. */
+const fx5Enet: Table = {
+  readWords: { short: [960, 480], extendedShort: [960, 480], extendedLong: [960, 480] },
+  writeWords: { short: [949, 480], extendedShort: [949, 480], extendedLong: [949, 480] },
+  readBits: { short: [3584, 1792], extendedShort: [3584, 1792], extendedLong: [3584, 1792] },
+  writeBits: { short: [3584, 1792], extendedShort: [3584, 1792], extendedLong: [3584, 1792] },
+  readRandom: { short: [123, 96], extendedShort: [96, 48], extendedLong: [96, 48] },
+  entryMonitorDevice: {},
+  writeRandomBits: { short: [188, 94], extendedShort: [94, 47], extendedLong: [94, 47] },
+  // 18 x 109 = 1962; (12 x 80) x 2 = 1920
+  writeRandomWords: { short: [109, 80], extendedShort: [80, 40], extendedLong: [80, 40] },
+  // 20 x 98 = 1960
+  'writeRandomWords, double words': { short: [98, 68], extendedShort: [68, 34], extendedLong: [68, 34] },
+  'readBlock, blocks': { short: [120, 60], extendedShort: [60, 30], extendedLong: [60, 30] },
+  'readBlock, points': { short: [960, 480], extendedShort: [960, 480], extendedLong: [960, 480] },
+  'writeBlock, blocks': { short: [120, 60], extendedShort: [60, 30], extendedLong: [60, 30] },
+  // 4 + 766 = 770; (4 + 381) x 2 = 770
+  'writeBlock, points of one block': { short: [766, 381], extendedShort: [766, 381], extendedLong: [766, 381] },
+}
+
 const qAndL: Table = {
   readWords: { short: [960, 960], extendedShort: [960, 960] },
   writeWords: { short: [960, 960], extendedShort: [960, 960] },
@@ -97,6 +117,15 @@ const qAndL: Table = {
   'readBlock, points': { short: [960, 960], extendedShort: [960, 960] },
   'writeBlock, blocks': { short: [120, 120], extendedShort: [120, 120] },
   'writeBlock, points of one block': { short: [956, 956], extendedShort: [956, 956] },
+}
+
+/** Built-in ports of QnU have no block commands. */
+const qBuiltIn: Table = {
+  ...qAndL,
+  'readBlock, blocks': {},
+  'readBlock, points': {},
+  'writeBlock, blocks': {},
+  'writeBlock, points of one block': {},
 }
 
 const generic: Table = {
@@ -142,7 +171,19 @@ const fx3: Table = {
   'writeBlock, points of one block': {},
 }
 
-const tables: Readonly<Record<ProfileId, Table>> = { 'iq-r': iqR, 'iq-f': iqF, q: qAndL, l: qAndL, fx3, generic }
+const tables: Readonly<Record<ProfileId, Table>> = {
+  'iq-r': iqR,
+  'iq-f': iqF,
+  'fx5-enet': fx5Enet,
+  q: qAndL,
+  'q-built-in': qBuiltIn,
+  'q-e71': qAndL,
+  l: qAndL,
+  fx3,
+  'remote-head': iqR,
+  'nz2gf-etb': qAndL,
+  generic,
+}
 
 function caught(run: () => void): RequestError {
   try {
@@ -219,6 +260,47 @@ describe('limits of one request, against the tables of the manuals', () => {
     expect(() => checkLimits(profiles['iq-r'], 'readBlock', 'long', 'binary', message)).not.toThrow()
     const more = { ...message, bitBlocks: [...message.bitBlocks, { points: 1 }] }
     expect(() => checkLimits(profiles['iq-r'], 'readBlock', 'long', 'binary', more)).toThrow(/961 points/)
+  })
+})
+
+describe('ZR on High Performance model QCPUs (SLMP 5.2, Read Random, footnote *1)', () => {
+  const read = (zr: number, d: number, doubleWords = 0) => ({
+    words: [...Array.from({ length: zr }, (_, number) => ({ device: { device: 'ZR', number } })), ...devices(d)],
+    doubleWords: Array.from({ length: doubleWords }, (_, number) => ({ device: { device: 'ZR', number } })),
+  })
+  const fits = (id: ProfileId, message: Message, form: DeviceForm = 'short', command: Command = 'readRandom') =>
+    brokenLimit(profiles[id], command, form, 'binary', message) === undefined
+
+  test.each(['q', 'q-e71'] as const)('%s counts it twice, in words and double words, with others', (id) => {
+    for (const command of ['readRandom', 'entryMonitorDevice'] as const) {
+      expect([fits(id, read(96, 0), 'short', command), fits(id, read(97, 0), 'short', command)]).toEqual([true, false])
+      expect([fits(id, read(50, 92)), fits(id, read(50, 93)), fits(id, read(51, 92))]).toEqual([true, false, false])
+      expect([fits(id, read(0, 0, 96)), fits(id, read(0, 0, 97)), fits(id, read(0, 192))]).toEqual([true, false, true])
+    }
+  })
+
+  test('with 008x four times, which is safe whatever the footnote means', () => {
+    expect([fits('q', read(48, 0), 'extendedShort'), fits('q', read(49, 0), 'extendedShort')]).toEqual([true, false])
+  })
+
+  test.each(['q-built-in', 'l', 'iq-r', 'nz2gf-etb'] as const)('%s counts it once', (id) => {
+    expect(fits(id, read(192, 0))).toBe(true)
+  })
+
+  test('can be set either way; the refusal names what counts twice', () => {
+    const once = resolveProfile('q-e71', { zrCountsDouble: false })
+    expect(brokenLimit(once, 'readRandom', 'short', 'binary', read(192, 0))).toBeUndefined()
+    const twice = resolveProfile('q-built-in', { zrCountsDouble: true })
+    expect(caught(() => checkLimits(twice, 'readRandom', 'short', 'binary', read(97, 0))).message).toContain(
+      'points of ZR again',
+    )
+    expect(limitsOf(once, 'writeRandomWords', 'short', 'binary')).toEqual(
+      limitsOf(profiles['q-e71'], 'writeRandomWords', 'short', 'binary'),
+    )
+    expect(caught(() => resolveProfile('q', JSON.parse('{ "zrCountsDouble": "yes" }')))).toMatchObject({
+      code: 'BAD_OPTION',
+      field: 'profile.zrCountsDouble',
+    })
   })
 })
 

@@ -19,7 +19,8 @@ describe('model codes', () => {
     [0x4a9b, ['FX5UC-96MT/DSS'], 'iQ-F', 'iq-f'],
     [0x4b32, ['FX5UJ-60MT/DSS'], 'iQ-F', 'iq-f'],
     [0x4b74, ['FX5S-80MT/DSS'], 'iQ-F', 'iq-f'],
-    [0x642, ['NZ2GF-ETB'], 'CC-Link IE Field', 'generic'],
+    [0x642, ['NZ2GF-ETB'], 'CC-Link IE Field', 'nz2gf-etb'],
+    [0x4860, ['RJ72GF15-T2'], 'iQ-R', 'remote-head'],
   ])('%#: code %i is %j', (code, models, series, profile) => {
     expect(modelOf(code)).toMatchObject({ models, series, profile })
   })

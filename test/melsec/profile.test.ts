@@ -15,6 +15,8 @@ import {
   profiles,
   resolveProfile,
 } from '../../src/melsec/profile'
+import { fileCommandNames } from '../../src/melsec/profiles/files'
+import { labelCommandNames } from '../../src/melsec/profiles/no-labels'
 
 const all = Object.values(profiles)
 const commandNames = Object.keys(commands)
@@ -82,6 +84,9 @@ describe('every profile', () => {
       profile.ranges,
       profile.refusals,
       profile.inFlight,
+      profile.connections,
+      profile.reach,
+      profile.lastIndex,
       profile.monitoringTimer,
       profile.remote,
       ...Object.values(profile.subcommands),
@@ -96,8 +101,8 @@ describe('every profile', () => {
       for (const name of Object.keys(pointFields) as (keyof typeof pointFields)[]) {
         for (const form of profile.forms) {
           for (const code of profile.codes) {
-            const has = lackOf(profile, name) === undefined
-            expect([name, form, code, limitsOf(profile, name, form, code).length > 0]).toEqual([name, form, code, has])
+            if (lackOf(profile, name) !== undefined) continue
+            expect([name, form, code, limitsOf(profile, name, form, code).length]).not.toEqual([name, form, code, 0])
           }
         }
       }
@@ -147,7 +152,12 @@ describe('what the families are like', () => {
   test.each([
     ['iq-r', 16, '4E', ['4E', '3E'], 'long', ['short', 'long', 'extendedShort', 'extendedLong']],
     ['iq-f', 8, '3E', ['3E', '1E'], 'short', ['short', 'extendedShort', 'extendedLong']],
+    ['fx5-enet', 8, '3E', ['3E', '1E'], 'short', ['short', 'extendedShort', 'extendedLong']],
     ['q', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
+    ['q-built-in', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
+    ['q-e71', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
+    ['remote-head', 16, '4E', ['4E', '3E'], 'long', ['short', 'long', 'extendedShort', 'extendedLong']],
+    ['nz2gf-etb', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
     ['l', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
     ['fx3', 8, '1E', ['1E'], 'short', ['short', 'long']],
     ['generic', 16, '3E', ['4E', '3E'], 'short', ['short', 'long', 'extendedShort', 'extendedLong']],
@@ -206,6 +216,14 @@ describe('what the families are like', () => {
     ['q', 'udp', '4E', 1, 58],
     ['q', 'udp', '4E', 10, 6],
     ['iq-f', 'udp', '3E', 1, 1],
+    ['q-e71', 'udp', '4E', 4, 15],
+    ['q-built-in', 'udp', '4E', 1, 577],
+    ['q-built-in', 'udp', '4E', 7, 83],
+    ['q-built-in', 'tcp', '4E', 1, 1],
+    ['l', 'udp', '4E', 3, 20],
+    ['nz2gf-etb', 'udp', '4E', 1, 51],
+    ['nz2gf-etb', 'udp', '4E', 8, 7],
+    ['fx5-enet', 'udp', '3E', 1, 1],
     ['generic', 'udp', '4E', 1, 1],
   ] as const)(
     '%s over %s with %s and %i connections: at most %i requests in flight',
@@ -226,6 +244,60 @@ describe('what the families are like', () => {
     expect(profiles['iq-f'].subcommands.clearError?.value).toBe(0)
   })
 
+  test('FX5 Ethernet module: what its table and appendix print otherwise than those of the CPU module', () => {
+    const module = profiles['fx5-enet']
+    const lacks = (id: ProfileId) => profiles[id].lacks.map(({ command }) => command)
+    const more = lacks('fx5-enet').filter((name) => !lacks('iq-f').includes(name))
+    expect(more.sort()).toEqual(['clearError', 'lock', 'unlock'])
+    expect(lacks('iq-f').filter((name) => !lacks('fx5-enet').includes(name))).toEqual([])
+    expect([module.lastIndex.Z, module.lastIndex.LZ]).toEqual([24, 12])
+    expect([profiles['iq-f'].lastIndex.Z, profiles['iq-f'].lastIndex.LZ]).toEqual([23, 11])
+    expect(module.monitoringTimer).toMatchObject({ zeroOnly: false, recommended: { from: 250, to: 10_000 } })
+    expect([module.connections.most, profiles['iq-f'].connections.most]).toEqual([32, 8])
+    expect(module.refusals).toMatchObject({ length: 0xc057, deviceName: 0xc05b, deviceNumber: 0xc056 })
+    expect(exclusionOf(module, 'readRandom', 'LCS')).toBeDefined()
+  })
+
+  test('Q by its ports: built-in ones lack what was measured, Ethernet modules have it', () => {
+    for (const command of ['readBlock', 'writeBlock', 'readTypeName'] as const) {
+      expect(lackOf(profiles['q-built-in'], command)?.endCode).toBe(0xc059)
+      expect([lackOf(profiles['q-e71'], command), doubtOf(profiles['q-e71'], command)]).toEqual([undefined, undefined])
+    }
+    for (const command of ['remoteRun', 'selfTest', 'readMemory'] as const) {
+      expect([lackOf(profiles['q-built-in'], command), doubtOf(profiles['q-e71'], command)]).toEqual([
+        undefined,
+        undefined,
+      ])
+      expect(doubtOf(profiles['q-built-in'], command)).toBeDefined()
+    }
+    for (const command of ['unlock', 'lock', 'entryMonitorDevice', 'executeMonitor'] as const) {
+      expect(doubtOf(profiles['q-built-in'], command)).toBeUndefined()
+    }
+    expect(profiles['q-built-in'].extensions).toEqual(['link'])
+  })
+
+  test('head module and Ethernet adapter: nothing is lacking that the damaged table leaves open', () => {
+    expect(profiles['remote-head'].lacks).toEqual([])
+    for (const command of ['readRandomLabels', 'remotePause', 'remoteLatchClear', 'unlock'] as const) {
+      expect(doubtOf(profiles['remote-head'], command)?.source).toContain('damaged')
+    }
+    const adapter = profiles['nz2gf-etb']
+    expect(adapter.lacks.map(({ command }) => command).sort()).toEqual(
+      [...labelCommandNames, ...fileCommandNames].sort(),
+    )
+    for (const command of ['remotePause', 'remoteLatchClear', 'writeExtendUnit', 'lock'] as const) {
+      expect(doubtOf(adapter, command)?.source).toContain('damaged')
+    }
+    expect([doubtOf(adapter, 'clearError'), lackOf(adapter, 'clearError')]).toEqual([undefined, undefined])
+  })
+
+  test.each(all)('$id: its buffer is the lowest of its ports, and its CPU has a profile of itself', (profile) => {
+    const { ports, udpBuffer } = profile.inFlight
+    if (ports.length > 0) expect(udpBuffer).toBe(Math.min(...ports.map(({ buffer }) => buffer)))
+    expect(profiles[profile.cpu].cpu).toBe(profile.cpu)
+    expect(profile.reach.ownModuleIo[0]).toBe(0x3ff)
+  })
+
   test('device ranges as the CPUs answer them', () => {
     expect(profiles['iq-f'].ranges.points).toMatchObject({ X: 1024, D: 8000, STN: 16, LCN: 64, Z: 20, LZ: 2, R: 32768 })
     expect(profiles['iq-r'].ranges.points).toMatchObject({ X: 12288, M: 12288, D: 18432, Z: 20, LZ: 2 })
@@ -244,7 +316,7 @@ describe('resolveProfile', () => {
     for (const id of ['iq-x', 'IQ-R', 'toString', '']) {
       const error = caught(() => resolveProfile(id as ProfileId))
       expect(error).toMatchObject({ code: 'BAD_OPTION', field: 'profile' })
-      expect(error.message).toContain('iq-r, iq-f, q, l, fx3, generic')
+      expect(error.message).toContain(profileIds.join(', '))
     }
   })
 

@@ -3,6 +3,7 @@ import { writerOf } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { modelOf } from '../../src/melsec/model-code'
 import { type FrameName, lackOf, type Profile, profileIds, profiles } from '../../src/melsec/profile'
+import { passwordProblem } from '../../src/melsec/remote-password'
 import type { SimulatedLabels } from '../../src/simulator/labels'
 import { fileRefusals, fileScenarios } from './file-scenarios'
 import { type Joined, join, type SlmpFrame } from './support'
@@ -11,7 +12,9 @@ const M100 = { device: 'M', number: 100 } as const
 const D10 = { device: 'D', number: 10 } as const
 const D20 = { device: 'D', number: 20 } as const
 
-const anyPassword = ({ id }: Profile) => (id === 'q' || id === 'l' ? 'what' : 'whatever')
+/** Its port reaches no module, so the simulated one has none. */
+const hasNoModules = (profile: Profile) => !profile.extensions.includes('module')
+const anyPassword = (profile: Profile) => (passwordProblem(profile, 'what') === undefined ? 'what' : 'whatever')
 
 /** What each command must do, seen from the wire and from the program. */
 const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
@@ -87,7 +90,7 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     expect(answer?.model).toHaveLength(16)
     const model = modelOf(answer?.modelCode ?? 0)
     expect(model?.models).toContain(answer?.model.trimEnd())
-    if (plc.profile.id !== 'generic') expect(model?.profile).toBe(plc.profile.id)
+    if (plc.profile.id !== 'generic') expect(model?.profile).toBe(plc.profile.cpu)
   },
   remoteRun({ plc, asker }) {
     asker.ask(commands.remoteStop, {})
@@ -176,7 +179,7 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
   },
   lock({ plc, asker }) {
     expect(asker.ask(commands.lock, { password: anyPassword(plc.profile) })).toEqual({})
-    expect(asker.endCode(commands.readTypeName, {})).toBe(0)
+    expect(asker.endCode(commands.readWords, { head: D10, points: 1 })).toBe(0)
   },
   readMemory({ asker }) {
     asker.ask(commands.writeMemory, { address: 8, values: [1, 0xfedc] })
@@ -188,7 +191,11 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     expect(asker.endCode(commands.writeMemory, { address: 15, values: [3, 4] })).not.toBe(0)
     expect(asker.ask(commands.readMemory, { address: 14, points: 2 })).toEqual({ values: [3, 4] })
   },
-  readExtendUnit({ asker }) {
+  readExtendUnit({ plc, asker }) {
+    if (hasNoModules(plc.profile)) {
+      expect(asker.endCode(commands.readExtendUnit, { address: 0x100a, byteCount: 4, moduleNumber: 3 })).not.toBe(0)
+      return
+    }
     const head = { device: 'G', number: 1, extension: { kind: 'module', unit: 3 } } as const
     asker.ask(commands.writeWords, { head, values: [0x1234, 0xfedc] })
     const asked = { address: 0x100a, byteCount: 4, moduleNumber: 3 }
@@ -209,8 +216,12 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
       expect(asker.rawEndCode(writer.take())).toBe(0xc05c)
     }
   },
-  writeExtendUnit({ asker }) {
+  writeExtendUnit({ plc, asker }) {
     const written = { address: 0x100a, moduleNumber: 3, data: Buffer.of(0x34, 0x12) }
+    if (hasNoModules(plc.profile)) {
+      expect(asker.endCode(commands.writeExtendUnit, written)).not.toBe(0)
+      return
+    }
     expect(asker.ask(commands.writeExtendUnit, written)).toEqual({})
     const head = { device: 'G', number: 1, extension: { kind: 'module', unit: 3 } } as const
     expect(asker.ask(commands.readWords, { head, points: 2 })).toEqual({ values: [0x1234, 0] })
@@ -287,6 +298,13 @@ describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) =
         ...fileRefusals(asker),
         writeExtendUnit: () =>
           asker.endCode(commands.writeExtendUnit, { address: 0, moduleNumber: 0, data: Buffer.of(0, 0) }),
+        readTypeName: () => asker.endCode(commands.readTypeName, {}),
+        readBlock: () => asker.endCode(commands.readBlock, { wordBlocks: [{ head: D10, points: 1 }], bitBlocks: [] }),
+        writeBlock: () =>
+          asker.endCode(commands.writeBlock, { wordBlocks: [{ head: D10, values: [1] }], bitBlocks: [] }),
+        clearError: () => asker.endCode(commands.clearError, {}),
+        unlock: () => asker.endCode(commands.unlock, { password: anyPassword(profile) }),
+        lock: () => asker.endCode(commands.lock, { password: anyPassword(profile) }),
       }
       const endCode = ask[name]?.()
       expect(endCode).toBe(lackOf(profile, name)?.endCode)

@@ -2,7 +2,7 @@ import { describe, expect, test } from '@jest/globals'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { FORM_BITS } from '../../src/melsec/form'
 import { type Limit, limitsOf, measureLimit } from '../../src/melsec/limit'
-import { profileIds, profiles } from '../../src/melsec/profile'
+import { lackOf, profileIds, profiles } from '../../src/melsec/profile'
 import { join, rawBody } from './support'
 
 type Coded = readonly [command: CommandName, subcommandUnit: 0 | 1]
@@ -118,7 +118,8 @@ describe.each(profileIds.filter((id) => profiles[id].frames.includes('3E')))('%s
     const form = profile.form
     const refuse = (name: CommandName, hex: string) => {
       const [limit] = limitsOf(profile, name, form, 'binary')
-      expect([name, asker.rawEndCode(Buffer.from(hex, 'hex'))]).toEqual([name, limit?.endCode])
+      const endCode = lackOf(profile, name)?.endCode ?? limit?.endCode
+      expect([name, asker.rawEndCode(Buffer.from(hex, 'hex'))]).toEqual([name, endCode])
     }
     const long = form === 'long'
     refuse('readWords', long ? '0104020000000000a8000000' : '01040000000000a80000')

@@ -5,7 +5,8 @@ import { Session } from '../../src/link/link'
 import type { Command, RequestOf, ResponseOf } from '../../src/melsec/command'
 import { FORM_BITS } from '../../src/melsec/form'
 import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import type { DeviceForm, FrameName, Profile } from '../../src/melsec/profile'
+import { type DeviceForm, type FrameName, type Profile, profiles } from '../../src/melsec/profile'
+import { anyFiles } from '../../src/melsec/profiles/files'
 import { type ExchangeOptions, MelsecProtocol } from '../../src/melsec/protocol'
 import { completeRoute, type Route } from '../../src/melsec/route'
 import {
@@ -26,6 +27,8 @@ export function lenient(profile: Profile): Profile {
     lacks: [],
     exclusions: [],
     absentDevices: [],
+    lastIndex: profiles['iq-r'].lastIndex,
+    files: profile.files.drives.length === 0 ? anyFiles : profile.files,
     forms: ALL_FORMS,
     extensions: ['link', 'module', 'cpu'],
   }

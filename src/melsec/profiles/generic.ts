@@ -3,6 +3,7 @@ import { anyFiles } from './files'
 import { iqF } from './iq-f'
 import { iqR } from './iq-r'
 import { passwordLimit } from './limits'
+import { networks } from './reach'
 
 /** For a PLC nobody knows: every form and command, and of all limits the lower ones. */
 export const generic: Profile = {
@@ -10,6 +11,7 @@ export const generic: Profile = {
   id: 'generic',
   title: 'generic SLMP device',
   series: 'any device that speaks SLMP or the MC protocol',
+  cpu: 'generic',
   frame: '3E',
   form: 'short',
   lacks: [],
@@ -22,7 +24,9 @@ export const generic: Profile = {
     passwordLimit(4, 32, 'Q and L 4, iQ-R and iQ-F 6 to 32'),
   ],
   ranges: { points: {}, source: 'unknown: no device number is checked' },
-  inFlight: { tcp: 1, udpBuffer: 0, source: 'the lowest of all profiles' },
+  inFlight: { tcp: 1, udpBuffer: 0, ports: [], source: 'the lowest of all profiles' },
+  // Nothing is known of it, so nothing is refused for it.
+  reach: networks('unknown: the PLC says what it cannot reach'),
   monitoringTimer: {
     default: 0,
     zeroOnly: false,
@@ -30,6 +34,7 @@ export const generic: Profile = {
     source: '0 is taken by every family, FX5 CPU modules take nothing else',
   },
   files: anyFiles,
+  remote: { clearModes: iqR.remote.clearModes, reset: iqR.remote.reset, source: iqR.remote.source },
   notes: [
     'Choose the profile of your PLC when you know it: it knows the numbering of X and Y, the limits and what the PLC lacks.',
   ],

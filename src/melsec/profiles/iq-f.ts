@@ -10,11 +10,11 @@ const forms: readonly DeviceForm[] = ['short', 'extendedShort', 'extendedLong']
 const manual = 'FX5 communication manual 38.1 and 38.2'
 const twice = { asciiFactor: 2, extendedFactor: 2 } as const
 
+/** The manual has two tables in 38.1, of the CPU module and of the Ethernet modules; these rows are in both. */
 // C051 and C052 the other way round than on iQ-R, Q and L: the manual's end codes (47.4), and measured by others.
-const limits: readonly LimitRule[] = [
-  passwordLimit(6, 32, 'FX5 communication manual 38.6'),
+export const fx5Limits: readonly LimitRule[] = [
   {
-    commands: ['readWords', 'writeWords'],
+    commands: ['readWords'],
     forms,
     max: 960,
     asciiFactor: 2,
@@ -31,18 +31,7 @@ const limits: readonly LimitRule[] = [
     endCode: 0xc051,
     source: manual,
   },
-  { commands: ['readRandom'], forms, max: 192, ...twice, unit: 'points', endCode: 0xc054, source: manual },
   { commands: ['writeRandomBits'], forms, max: 188, ...twice, unit: 'points', endCode: 0xc053, source: manual },
-  {
-    commands: ['writeRandomWords'],
-    forms,
-    sum: randomWriteWeights,
-    max: 1920,
-    ...twice,
-    unit: 'weightedPoints',
-    endCode: 0xc054,
-    source: manual,
-  },
   {
     commands: ['readBlock', 'writeBlock'],
     forms,
@@ -54,17 +43,31 @@ const limits: readonly LimitRule[] = [
     source: manual,
   },
   { commands: ['readBlock'], forms, max: 960, asciiFactor: 2, unit: 'points', endCode: 0xc052, source: manual },
-  {
-    commands: ['writeBlock'],
-    forms,
-    sum: writtenBlockWeights(4),
-    max: 760,
-    asciiFactor: 2,
-    unit: 'weightedPoints',
-    endCode: 0xc052,
-    source: `${manual}: 760 of the CPU module (Ethernet module 770)`,
-  },
 ]
+
+const limits: readonly LimitRule[] = [
+  passwordLimit(6, 32, 'FX5 communication manual 38.6'),
+  ...fx5Limits,
+  { commands: ['writeWords'], forms, max: 960, asciiFactor: 2, unit: 'points', endCode: 0xc052, source: manual },
+  { commands: ['readRandom'], forms, max: 192, ...twice, unit: 'points', endCode: 0xc054, source: manual },
+  {
+    commands: ['writeRandomWords'],
+    forms,
+    sum: randomWriteWeights,
+    max: 1920,
+    ...twice,
+    unit: 'weightedPoints',
+    endCode: 0xc054,
+    source: manual,
+  },
+  writtenBlocks(760, `${manual}: 760 of the CPU module (Ethernet module 770)`),
+]
+
+/** Write Block: blocks weigh four points each. */
+export function writtenBlocks(max: number, source: string): LimitRule {
+  const sum = writtenBlockWeights(4)
+  return { commands: ['writeBlock'], forms, sum, max, asciiFactor: 2, unit: 'weightedPoints', endCode: 0xc052, source }
+}
 
 const doubleWordDevices = ['LCN', 'LTN', 'LSTN', 'LZ'] as const
 const contactsAndCoils = ['TS', 'TC', 'STS', 'STC', 'CS', 'CC'] as const
@@ -74,6 +77,7 @@ export const iqF: Profile = {
   id: 'iq-f',
   title: 'MELSEC iQ-F',
   series: 'FX5S, FX5UJ, FX5U and FX5UC CPU modules by their Ethernet port',
+  cpu: 'iq-f',
   xyRadix: 8,
   frames: ['3E', '1E'],
   frame: '3E',
@@ -165,8 +169,18 @@ export const iqF: Profile = {
   inFlight: {
     tcp: 1,
     udpBuffer: 0,
+    ports: [],
     source: '36.3: half duplex; 6.5: over UDP a request that comes before the answer to the last one is discarded',
   },
+  connections: { most: 8, source: '6.1: SLMP, MELSOFT, sockets and the others together' },
+  reach: {
+    stations: 'connected',
+    ownModuleIo: [0x3ff],
+    ownModuleIoOnly: true,
+    source:
+      '37.1: Ethernet-equipped modules take network 00, station FF, module I/O 03FF and multidrop station 00 only',
+  },
+  lastIndex: { Z: 23, LZ: 11, source: 'appendix 9: FX5S, FX5U and FX5UC; FX5UJ Z19 and LZ1' },
   monitoringTimer: { default: 0, zeroOnly: true, source: '37.1: 0000 on the CPU module' },
   subcommands: {
     clearError: {
@@ -177,6 +191,12 @@ export const iqF: Profile = {
   remote: {
     clearModes: [0],
     reset: 'only in STOP, and only if the CPU parameter "Remote Reset" is enabled; may not be answered',
+    status: {
+      device: 'SD',
+      number: 203,
+      source:
+        'background: special register list of the FX5 application manual, to which the communication manual refers',
+    },
     source: '38.3 Remote RUN and Remote Reset',
   },
   files: noFileFacts,

@@ -3,12 +3,14 @@ import { iqRFiles } from './files'
 import { iqRLimits } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
 import { pointsOf } from './ranges'
+import { networks, openSettings } from './reach'
 
 /** Figures of SLMP reference manual SH(NA)-081293 unless said otherwise. */
 export const iqR: Profile = {
   id: 'iq-r',
   title: 'MELSEC iQ-R',
   series: 'R00 to R120 CPUs (also EN, P, SF, PSF) by their Ethernet port or RJ71EN71; iQ-L and MELSEC MX behave alike',
+  cpu: 'iq-r',
   xyRadix: 16,
   frames: ['4E', '3E'],
   frame: '4E',
@@ -90,8 +92,15 @@ export const iqR: Profile = {
   inFlight: {
     tcp: 1,
     udpBuffer: 32,
+    ports: [
+      { port: 'built-in Ethernet port', buffer: 32 },
+      { port: 'RJ71EN71', buffer: 190 },
+    ],
     source: '3.3: RCPU 1 + 32 / connections (RJ71EN71: 190). TCP: one at a time, so that no PLC can merge two requests',
   },
+  connections: { most: 16, source: openSettings },
+  reach: networks('2.3: the built-in port reaches its own station only, RJ71EN71 and network modules others too'),
+  lastIndex: { Z: 24, LZ: 12, source: 'SLMP reference manual, appendix 1' },
   monitoringTimer: {
     default: 4000,
     zeroOnly: false,
@@ -102,6 +111,11 @@ export const iqR: Profile = {
   remote: {
     clearModes: [0, 1, 2],
     reset: 'only in STOP, and only if the CPU parameter "Remote Reset" is enabled; no answer when it succeeds',
+    status: {
+      device: 'SD',
+      number: 203,
+      source: 'background: special register list of the MELSEC iQ-R CPU module manual (application)',
+    },
     source: 'SLMP reference manual 5.6',
   },
   files: iqRFiles,

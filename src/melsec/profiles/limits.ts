@@ -106,6 +106,18 @@ export const qAndLLimits: readonly LimitRule[] = [
   },
 ]
 
+/**
+ * With the file register ZR counted twice in Read Random and Entry Monitor Device: of High Performance model QCPUs. The
+ * footnote does not say whether 008x counts it four times: it does here, so that no request is too long.
+ */
+export function zrTwice(rules: readonly LimitRule[]): readonly LimitRule[] {
+  return rules.map((rule) =>
+    rule.commands.includes('readRandom')
+      ? { ...rule, twice: ['ZR'], source: `${rule.source}: ZR of High Performance model QCPUs counted twice` }
+      : rule,
+  )
+}
+
 const long: readonly DeviceForm[] = ['long', 'extendedLong']
 
 /** iQ-R: as Q/L in 000x, everything counted double with 0080; half of it in 0002 and 0082. */

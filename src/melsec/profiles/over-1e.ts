@@ -90,7 +90,8 @@ export function profileOver1e(profile: Profile, windows: readonly ACompatibleWin
     doubtful: [],
     exclusions,
     limits: aCompatibleLimits.flatMap(ruleOf),
-    remote: { ...profile.remote, clearModes: [0] },
+    // SD203 is outside what a 1E frame reaches, so the state cannot be read back.
+    remote: { clearModes: [0], reset: profile.remote.reset, source: profile.remote.source },
     subcommands: {},
     sources: { ...profile.sources, forms: source, extensions: source, absentDevices: source },
   }

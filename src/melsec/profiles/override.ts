@@ -6,6 +6,7 @@ import type { LimitRule, LimitUnit } from '../limit'
 import type { Lack, LimitOverrides, Profile, ProfileOverrides } from '../profile'
 
 const SOURCE = 'set by the user'
+const ZR_COUNTED: readonly CommandName[] = ['readRandom', 'entryMonitorDevice']
 
 function bad(field: string, message: string): never {
   throw new RequestError('BAD_OPTION', message, field)
@@ -123,7 +124,18 @@ function withInFlight(profile: Profile, overrides: NonNullable<ProfileOverrides[
   const { tcp = profile.inFlight.tcp, udpBuffer = profile.inFlight.udpBuffer } = overrides
   whole(tcp, 1, Number.MAX_SAFE_INTEGER, 'profile.inFlight.tcp')
   whole(udpBuffer, 0, Number.MAX_SAFE_INTEGER, 'profile.inFlight.udpBuffer')
-  return { ...profile, inFlight: { tcp, udpBuffer, source: SOURCE } }
+  return { ...profile, inFlight: { tcp, udpBuffer, ports: [], source: SOURCE } }
+}
+
+/** SLMP reference manual 5.2, Read Random, footnote *1. */
+function withZrCountsDouble(profile: Profile, double: boolean): Profile {
+  if (typeof double !== 'boolean') bad('profile.zrCountsDouble', 'profile.zrCountsDouble is true or false.')
+  const limits = profile.limits.map((rule) => {
+    if (rule.unit !== 'points' || !rule.commands.some((name) => ZR_COUNTED.includes(name))) return rule
+    const { twice, ...plain } = rule
+    return double ? { ...plain, twice: ['ZR' as const], source: SOURCE } : { ...plain, source: SOURCE }
+  })
+  return { ...profile, limits }
 }
 
 function withXyRadix(profile: Profile, xyRadix: 8 | 16): Profile {
@@ -144,6 +156,7 @@ const FIELDS = {
   ranges: true,
   subcommands: true,
   inFlight: true,
+  zrCountsDouble: true,
 } as const satisfies Readonly<Record<keyof ProfileOverrides, true>>
 
 /** @throws RequestError BAD_OPTION: a field, command, device or unit that does not exist, or a value that cannot be. */
@@ -152,7 +165,7 @@ export function withOverrides(profile: Profile, overrides: ProfileOverrides): Pr
     if (Object.hasOwn(FIELDS, name)) continue
     bad(`profile.${name}`, `A profile has no ${name} that could be set. Fields: ${Object.keys(FIELDS).join(', ')}.`)
   }
-  const { xyRadix, frame, limits, lacks, ranges, subcommands, inFlight } = overrides
+  const { xyRadix, frame, limits, lacks, ranges, subcommands, inFlight, zrCountsDouble } = overrides
   let merged = profile
   if (xyRadix !== undefined) merged = withXyRadix(merged, xyRadix)
   if (frame !== undefined) merged = withFrame(merged, frame)
@@ -161,5 +174,6 @@ export function withOverrides(profile: Profile, overrides: ProfileOverrides): Pr
   if (ranges !== undefined) merged = withRanges(merged, ranges)
   if (subcommands !== undefined) merged = withSubcommands(merged, subcommands)
   if (inFlight !== undefined) merged = withInFlight(merged, inFlight)
+  if (zrCountsDouble !== undefined) merged = withZrCountsDouble(merged, zrCountsDouble)
   return merged
 }

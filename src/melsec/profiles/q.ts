@@ -1,10 +1,11 @@
 import type { DeviceName } from '../device'
-import type { Lack, Profile } from '../profile'
+import type { Lack, Profile, StatusRegister } from '../profile'
 import { qFiles } from './files'
-import { qAndLLimits } from './limits'
+import { qAndLLimits, zrTwice } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
 import { pointsOf } from './ranges'
+import { networks, openSettings } from './reach'
 
 /** What Q and L share: long devices came with iQ-R. */
 export const absentOnQAndL: readonly DeviceName[] = [
@@ -57,11 +58,19 @@ export const doubtfulOnQAndL: readonly Lack[] = [
   },
 ]
 
+export const qStatus: StatusRegister = {
+  device: 'SD',
+  number: 203,
+  source: 'special register list of the QCPU manuals, Operating status of CPU',
+}
+
 /** Figures of SLMP reference manual SH(NA)-081293 unless said otherwise. */
 export const q: Profile = {
   id: 'q',
   title: 'MELSEC-Q',
-  series: 'QCPU by QJ71E71-100, and QnUDE, QnUDV and QnUDPV CPUs by their own Ethernet port',
+  series:
+    'QCPU by QJ71E71-100, and QnUDE, QnUDV and QnUDPV CPUs by their own Ethernet port, when it is not known which',
+  cpu: 'q',
   xyRadix: 16,
   frames: ['3E', '4E'],
   frame: '3E',
@@ -76,7 +85,7 @@ export const q: Profile = {
   lacks: noLabels('SLMP reference manual 5.3: global labels of GX Works2 cannot be accessed'),
   doubtful: [...doubtfulOnQAndL, ...doubtfulMemoryCommands],
   exclusions: [],
-  limits: qAndLLimits,
+  limits: zrTwice(qAndLLimits),
   ranges: {
     points: pointsOf(
       {
@@ -122,9 +131,16 @@ export const q: Profile = {
   inFlight: {
     tcp: 1,
     udpBuffer: 57,
+    ports: [
+      { port: 'QJ71E71-100', buffer: 57 },
+      { port: 'built-in Ethernet port of QnUDV and QnUDPV', buffer: 576 },
+    ],
     source:
       '3.3: QJ71E71-100 1 + 57 / connections (QnUDV, QnUDPV: 576). TCP: one at a time, so that no PLC can merge two requests',
   },
+  connections: { most: 16, source: openSettings },
+  reach: networks('2.3: a built-in port reaches its own station only, an Ethernet module others too'),
+  lastIndex: { Z: 15, LZ: -1, source: 'SLMP reference manual, appendix 1; LZ came with iQ-R' },
   monitoringTimer: {
     default: 4000,
     zeroOnly: false,
@@ -135,6 +151,7 @@ export const q: Profile = {
   remote: {
     clearModes: [0, 1, 2],
     reset: 'only in STOP, and only if the PLC parameter "Remote Reset" is enabled; no answer when it succeeds',
+    status: qStatus,
     source: 'SLMP reference manual 5.6',
   },
   files: qFiles,
@@ -142,7 +159,8 @@ export const q: Profile = {
     'Built-in port: PLC Parameter, Built-in Ethernet Port Setting, Open Setting, "MC Protocol", with the port number; tick "Enable online change" for writing.',
     'QJ71E71-100: UDP port 5000 is open without a setting ("Auto open UDP port"), as long as it is not assigned otherwise.',
     'Built-in ports refuse module access (U\\G) with C070; Ethernet modules have it.',
-    'Read Random and Entry Monitor Device count ZR double on High Performance model QCPUs.',
+    'Profiles for one kind of port: q-built-in and q-e71.',
+    'Read Random and Entry Monitor Device count ZR double on High Performance model QCPUs. It is counted so here, which is safe on every QCPU; zrCountsDouble: false ends it.',
     'Write Random over its limit is answered with 4080 by Ethernet modules, with C054 by built-in ports (measured by others).',
     '4E exists on current modules only: 3E is the default because every one of them has it.',
   ],

@@ -1,0 +1,16 @@
+import type { Reach } from '../profile'
+
+/** Of a simulated PLC; what a real port has depends on its open settings. */
+export const openSettings = 'background: 16 open settings'
+
+const own = [0x3ff, 0x3e0, 0x3d0] as const
+
+/** A port by which other stations may be reached. 03FF own station, 03E0 CPU No. 1, 03D0 control system CPU. */
+export function networks(source: string): Reach {
+  return { stations: 'networks', ownModuleIo: own, ownModuleIoOnly: false, source }
+}
+
+/** A port that reaches nothing but the connected station, with the CPUs of a multiple CPU system. */
+export function connectedStation(source: string): Reach {
+  return { stations: 'connected', ownModuleIo: own, ownModuleIoOnly: false, source }
+}
