@@ -25,6 +25,7 @@ export interface ConnectionOptions {
   readonly ascii?: boolean
   readonly asciiXy?: 'octal' | 'hexadecimal'
   readonly asciiZr?: 'decimal' | 'hexadecimal'
+  readonly asciiWordOrder?: 'low-first' | 'high-first'
   readonly xyRadix?: 8 | 16
   readonly network?: number
   readonly station?: number
@@ -122,6 +123,7 @@ export function addConnectionOptions(command: Command): Command {
     .addOption(frameOption("frame; default: the profile's"))
   addCodeOptions(command)
   return command
+    .addOption(choice('--ascii-word-order <order>', 'labels in ASCII code: order of the words of a value', ORDERS))
     .addOption(
       new Option(
         '--xy-radix <8|16>',
@@ -196,6 +198,14 @@ async function passwordOf(terminal: Terminal, options: ConnectionOptions): Promi
   return terminal.ask('Remote password: ', { hidden: true })
 }
 
+/** The remote password of a simulated PLC: from the environment, else typed. @throws RequestError */
+export async function simulatedPassword(terminal: Terminal): Promise<string> {
+  const set = process.env[PASSWORD]
+  if (set) return set
+  if (!terminal.interactive) throw badPeer(`This is no terminal to ask on. Set ${PASSWORD} instead.`, 'password')
+  return terminal.ask('Remote password of the simulated PLC: ', { hidden: true })
+}
+
 /** Address and port: both from the options, or both from the environment, never one from each. */
 export function peerOf({ plc, host, port }: ConnectionOptions): { readonly host: string; readonly port: number } {
   if (plc !== undefined && host !== undefined) throw badPeer('Give --plc or --host, not both.', 'plc')
@@ -237,7 +247,8 @@ export function clientOptions(
   options: ConnectionOptions & FormatOptions,
   allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'> = {},
 ): MelsecClientOptions {
-  const { profile, frame, ascii, asciiXy, asciiZr, xyRadix, monitoringTimer, localAddress, localPort } = options
+  const { profile, frame, ascii, asciiXy, asciiZr, asciiWordOrder, xyRadix, monitoringTimer, localAddress, localPort } =
+    options
   const { network, station, moduleIo: module, multidrop, wordOrder, byteOrder, encoding } = options
   return {
     ...peerOf(options),
@@ -247,7 +258,7 @@ export function clientOptions(
     connectTimeout: options.connectTimeout,
     route: given({ network, station, moduleIo: module, multidrop }),
     format: given({ wordOrder, byteOrder, encoding }),
-    ...given({ profile, frame, asciiXy, asciiZr, xyRadix, monitoringTimer, localAddress, localPort }),
+    ...given({ profile, frame, asciiXy, asciiZr, asciiWordOrder, xyRadix, monitoringTimer, localAddress, localPort }),
     ...allow,
   }
 }

@@ -11,11 +11,12 @@ import {
   startDemoPlant,
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { addCodeOptions, frameOption, jsonOption, profileOption, whole } from './connection-options'
+import { addCodeOptions, frameOption, jsonOption, profileOption, simulatedPassword, whole } from './connection-options'
 import { endCodeText } from './end-code'
 import { exitCodes } from './exit-code'
 import { faultHelp, faultOf } from './fault-option'
 import { interruption } from './interruption'
+import { labelsOf } from './label-option'
 import { onDemandWords, sendAgainAndAgain, takeLines } from './on-demand'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
@@ -24,6 +25,7 @@ const examples = [
   'simulate --plant',
   'simulate --profile iq-f --port 5010',
   'simulate --on-demand 1,2,3 --on-demand-every 500',
+  "simulate --label Line1.Speed:REAL=12.5 --label 'Line1.Values:INT[10]=1,2,3'",
   'simulate --port 0 --no-udp --fault delay:ms=500 --fault endCode:endCode=C056,commands=readWords,times=1',
 ]
 
@@ -49,6 +51,11 @@ interface SimulateOptions {
   readonly onDemand?: readonly number[]
   readonly onDemandEvery: number
   readonly interactive?: boolean
+  readonly label: readonly string[]
+  readonly labels?: string
+  readonly password?: boolean
+  readonly passwordAttempts?: number
+  readonly lockOutTime?: number
   readonly log?: boolean
   readonly json?: boolean
 }
@@ -81,6 +88,17 @@ export const simulateCommand: MakeCommand = (run) => {
     .addOption(new Option('--max-connections <number>', 'connection entries').argParser(whole(1, 1000)))
     .option('--reset-allowed', 'CPU parameter "Remote Reset"')
     .addOption(
+      new Option('--label <name:type=value>', 'global label, e.g. Line1.Speed:REAL=12.5; may be repeated')
+        .default([], 'none')
+        .argParser(collect),
+    )
+    .option('--labels <file>', 'global labels: a JSON object by name, of { type, dimensions, value }')
+    .option('--password', 'lock the port: a remote password, from the environment (MELSEC_JW_PASSWORD) or asked for')
+    .addOption(
+      new Option('--password-attempts <number>', 'wrong passwords in a row that lock out').argParser(whole(1, 1000)),
+    )
+    .addOption(new Option('--lock-out-time <ms>', 'how long it takes no password then').argParser(whole(0, 86_400_000)))
+    .addOption(
       new Option('--on-demand <words>', 'send On-demand to every client again and again, e.g. 1,2,0xFFFF').argParser(
         onDemandWords,
       ),
@@ -100,13 +118,15 @@ function collect(text: string, before: readonly string[]): readonly string[] {
 }
 
 async function simulate(terminal: Terminal, options: SimulateOptions): Promise<number> {
-  const plc = createPlcSimulator(simulatorOptions(options))
+  const labels = await labelsOf(options.labels, options.label)
+  const password = options.password === true ? { password: await simulatedPassword(terminal) } : {}
+  const plc = createPlcSimulator({ ...simulatorOptions(options), labels, ...password })
   for (const text of options.fault) plc.faults.add(faultOf(text))
   await plc.listen()
   const interrupted = interruption()
   if (options.plant === true) startDemoPlant(plc)
   if (options.log === true) logRequests(terminal, plc)
-  show(terminal, plc, options)
+  show(terminal, plc, { ...options, names: Object.keys(labels) })
   const ends = [
     ...(options.onDemand === undefined ? [] : [sendAgainAndAgain(plc, options.onDemand, options.onDemandEvery)]),
     ...(options.interactive === true ? [takeLines(terminal, plc)] : []),
@@ -129,6 +149,8 @@ function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
     scanTime,
     maxConnections,
     resetAllowed,
+    passwordAttempts,
+    lockOutTime,
   } = options
   return {
     profile,
@@ -142,14 +164,21 @@ function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
     ...(scanTime === undefined ? {} : { scanTime }),
     ...(maxConnections === undefined ? {} : { maxConnections }),
     ...(resetAllowed === undefined ? {} : { resetAllowed }),
+    ...(passwordAttempts === undefined ? {} : { passwordAttempts }),
+    ...(lockOutTime === undefined ? {} : { lockOutTime }),
   }
 }
 
-function show(terminal: Terminal, plc: PlcSimulator, options: SimulateOptions): void {
+/** As it runs: with the names of its labels. */
+type Shown = SimulateOptions & { readonly names: readonly string[] }
+
+function show(terminal: Terminal, plc: PlcSimulator, options: Shown): void {
   const tags = demoPlantTags[plantVariantOf(plc.profile.id)]
   if (options.json === true) {
     const { profile, tcp, udp } = plc
-    terminal.out(json({ profile: profile.id, tcp, udp, ...(options.plant === true ? { plant: tags } : {}) }))
+    const { names: labels } = options
+    const more = { ...(options.plant === true ? { plant: tags } : {}), ...(labels.length === 0 ? {} : { labels }) }
+    terminal.out(json({ profile: profile.id, tcp, udp, ...more }))
     return
   }
   const { profile } = plc
@@ -160,6 +189,8 @@ function show(terminal: Terminal, plc: PlcSimulator, options: SimulateOptions): 
       `Simulated ${profile.title}, profile ${profile.id}. Ctrl-C ends it.`,
       table([...addressRow('TCP', plc.tcp), ...addressRow('UDP', plc.udp), ['Frames', frames], ['Code', code]], '  '),
       ...(options.fault.length === 0 ? [] : [`Faults: ${options.fault.join('  ')}`]),
+      ...(options.names.length === 0 ? [] : [`Labels: ${options.names.join('  ')}`]),
+      ...(options.password === true ? ['The port is locked by a remote password.'] : []),
       ...(options.plant === true ? ['', 'Demo plant:', plantTable(tags)] : []),
       '',
       `Try: ${trial(plc, options)}`,
@@ -194,7 +225,7 @@ function plantTable(tags: (typeof demoPlantTags)['iq-r']): string {
 }
 
 /** A command that reads something from it. */
-function trial({ tcp, udp, profile }: PlcSimulator, { ascii, frame, plant }: SimulateOptions): string {
+function trial({ tcp, udp, profile }: PlcSimulator, { ascii, frame, plant, password, names }: Shown): string {
   const peer = tcp ?? udp
   const settings = [
     ...(peer === undefined ? [] : [`--plc ${addressText(peer)}`]),
@@ -202,8 +233,11 @@ function trial({ tcp, udp, profile }: PlcSimulator, { ascii, frame, plant }: Sim
     `--profile ${profile.id}`,
     ...(frame === undefined ? [] : [`--frame ${frame}`]),
     ...(ascii === true ? ['--ascii'] : []),
+    ...(password === true ? ['--password'] : []),
   ]
-  return `melsec-jw read ${settings.join(' ')} ${plant === true ? 'D100:REAL M10' : 'D0 M0'}`
+  const [label] = names
+  const items = [plant === true ? 'D100:REAL M10' : 'D0 M0', ...(label === undefined ? [] : [`label:${label}`])]
+  return `melsec-jw read ${settings.join(' ')} ${items.join(' ')}`
 }
 
 function logRequests(terminal: Terminal, plc: PlcSimulator): void {

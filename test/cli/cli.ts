@@ -101,6 +101,11 @@ export function start(...args: readonly string[]): Running {
   return new Running([MAIN, ...args])
 }
 
+/** As `start`, with environment variables. */
+export function startWith(env: Readonly<Record<string, string>>, ...args: readonly string[]): Running {
+  return new Running([MAIN, ...args], env)
+}
+
 /** As `start`, with a standard input to type on. */
 export function startTyping(...args: readonly string[]): Running {
   return new Running([MAIN, ...args], {}, null)

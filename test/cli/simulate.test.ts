@@ -1,7 +1,7 @@
 /** `melsec-jw simulate`, and the example programs against it. */
 import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { createMelsecClient, createPlcSimulator, type MelsecClient } from '../../src/index'
-import { build, example, type Running, run, start } from './cli'
+import { build, example, type Running, run, start, startWith } from './cli'
 import { runHere } from './in-process'
 
 beforeAll(build, 120_000)
@@ -50,6 +50,22 @@ describe('simulate', () => {
     await program.says(/D100:REAL +level +Level \(l\)/)
     await program.says(/D110:REAL .* may be written/)
     expect(await clientOf(port).read('D130:STRING(20)')).toBe('Apple juice')
+  })
+
+  test('has labels and a remote password, and locks out whoever tries too often', async () => {
+    const args = ['--label', 'Line1.Speed:REAL=12.5', '--password', '--password-attempts', '1']
+    const program = startWith({ MELSEC_JW_PASSWORD: 'Secret-1' }, 'simulate', '--port', '0', ...args)
+    running.push(program)
+    const [, digits] = await program.says(/127\.0\.0\.1:(\d+)/)
+    const port = Number(digits)
+    await program.says(/Labels: Line1\.Speed\nThe port is locked by a remote password\./)
+    await program.says(/Try: .* --password D0 M0 label:Line1\.Speed/)
+    expect(await clientOf(port, { password: 'Secret-1' }).read('Line1.Speed')).toBe(12.5)
+    await expect(clientOf(port).read('Line1.Speed')).rejects.toMatchObject({ endCode: 0xc201 })
+    await expect(clientOf(port, { password: 'Secret-2' }).read('D0')).rejects.toThrow('C815')
+    await expect(clientOf(port, { password: 'Secret-1' }).read('D0')).rejects.toThrow('C816')
+    const { out, err } = await program.interrupt()
+    expect(out + err).not.toContain('Secret')
   })
 
   test('as JSON', async () => {

@@ -1,10 +1,10 @@
 import { describe, expect, test } from '@jest/globals'
 import { parseItem } from '../../src/client/item'
-import { explainItem, type ItemExplanation } from '../../src/client/plan-explain'
+import { explainItem, type DeviceExplanation } from '../../src/client/plan-explain'
 import type { ProfileId } from '../../src/melsec/profile'
 import { protocolOf } from './plan-plc'
 
-function explain(text: string, profile: ProfileId = 'iq-r'): ItemExplanation {
+function explain(text: string, profile: ProfileId = 'iq-r'): DeviceExplanation {
   const protocol = protocolOf(profile)
   const { xyRadix } = protocol.profile
   return explainItem(parseItem(text, { xyRadix }), protocol, { xyRadix })
