@@ -77,9 +77,12 @@ export {
 } from './melsec/end-code'
 export { explainFrame, formatExplanation } from './melsec/explain-frame'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
+export { type FileTime, formatFileTime, isFileTime } from './melsec/file-time'
 export { modelCodes, modelOf } from './melsec/model-code'
 export {
   type DeviceForm,
+  type Drive,
+  type FileFacts,
   type FrameName,
   type Profile,
   type ProfileId,

@@ -31,6 +31,8 @@ const OUTSIDE: readonly (readonly [RegExp, readonly string[]])[] = [
   [/^iconv-lite$/, ['value', 'melsec']],
   [/^commander$/, ['cli']],
   [/^node:buffer$/, Object.keys(ROOMS)],
+  // Drives of the simulator that are folders of this computer.
+  [/^node:(fs|path)$/, ['simulator', 'cli']],
   // Time and the network reach the command line through the library like everybody else.
   [/^node:(?!net$|dgram$|dns$|timers)/, ['cli']],
 ]

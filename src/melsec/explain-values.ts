@@ -6,6 +6,9 @@ import { formatDevice } from './address'
 import { commands } from './commands/commands'
 import { type DeviceAddress, deviceInfo } from './device'
 import { deviceAddress } from './device-codec'
+import { attributeText } from './file-attribute'
+import { driveNumber, fileName } from './file-codec'
+import { type FileTime, formatFileTime } from './file-time'
 import { modelOf } from './model-code'
 import { setReset } from './set-reset'
 
@@ -36,12 +39,20 @@ export function describeValue({ field, value }: Leaf, words: WordsFor): string |
     const models = modelOf(value)?.models.join(' or ') ?? 'not a model code of the manuals'
     return `${hex(value, 4)}H (${models})`
   }
+  if (field === listedFile.attribute && typeof value === 'number') return `${hex(value, 2)}H (${attributeText(value)})`
+  if (field.kind === 'value' && isFileTimeCodec(field.codec)) return formatFileTime(value as FileTime)
   if (field.kind === 'u16' || field.kind === 'u32') {
     if (field.doc === undefined) return signedText(value, field.kind === 'u16' ? 16 : 32)
     return `${String(value)} (${field.doc})`
   }
   if (field.kind === 'u8' && field.doc !== undefined) return `${String(value)} (${field.doc})`
   return field.kind === 'echo' ? `${describeEcho(value, words)} (repeats the request)` : undefined
+}
+
+const listedFile = commands.readDirectory.response.files.item
+
+function isFileTimeCodec(codec: unknown): boolean {
+  return codec === listedFile.modified.codec || codec === commands.changeFileDate.request.date.codec
 }
 
 function describeEcho(value: unknown, words: WordsFor): string {
@@ -204,8 +215,10 @@ function deviceOf(head: DeviceAddress, kind: string | undefined, index: number, 
   return { name: wordsPerDevice === 1 ? name : `${name} word ${index % wordsPerDevice}` }
 }
 
-/** The head device and points of a request, for its title: `D100, 10 points`. */
+/** What a request is about, for its title: `D100, 10 points`, `LINE.CSV`. */
 export function summaryOf({ request }: Declaration, message: Bag, words: WordsFor): string {
+  const files = filesOf(request, message)
+  if (files.length > 0) return files.join(', ')
   const head = headOf(request, message)
   const count = Object.entries(request).flatMap(([name, { kind }]) => {
     const value = message[name]
@@ -217,4 +230,14 @@ export function summaryOf({ request }: Declaration, message: Bag, words: WordsFo
     ...(head === undefined ? [] : [formatDevice(head, words)]),
     ...(count.length === 0 || head === undefined ? [] : [`${points} ${points === 1 ? 'point' : 'points'}`]),
   ].join(', ')
+}
+
+/** Names of files, each behind the number of its drive: `4:LINE.CSV`. */
+function filesOf(request: Shape, message: Bag): string[] {
+  let drive: unknown
+  return Object.entries(request).flatMap(([name, field]) => {
+    if (field.kind !== 'value') return []
+    if (field.codec === driveNumber) drive = message[name]
+    return field.codec === fileName ? [`${String(drive)}:${String(message[name])}`] : []
+  })
 }

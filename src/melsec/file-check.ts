@@ -9,7 +9,7 @@ import type { Profile } from './profile'
  * @throws RequestError UNSUPPORTED naming the field and the drives there are.
  */
 export function checkDrives(profile: Profile, command: Command, message: Readonly<Record<string, unknown>>): void {
-  if (command.subcommands === undefined) return
+  if (command.subcommands === undefined || profile.files.drives.length === 0) return
   for (const [name, field] of Object.entries(command.request)) {
     if (field.kind !== 'value' || field.codec !== driveNumber) continue
     const drive = message[name]

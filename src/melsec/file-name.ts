@@ -58,6 +58,17 @@ export function shortNameOf(given: unknown): ShortName {
   return { stem, extension }
 }
 
+/** Whether subcommands 0000 and 0004 can say the name. */
+export function isShortName(name: string): boolean {
+  try {
+    shortNameOf(name)
+    return true
+  } catch (error) {
+    if (error instanceof RequestError) return false
+    throw error
+  }
+}
+
 /**
  * Checks a path from the root; one separator in front is allowed. `what` is for the message.
  * @throws RequestError BAD_MESSAGE

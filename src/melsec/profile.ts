@@ -158,11 +158,41 @@ export interface Drive {
   readonly same?: number
 }
 
-/** Files and how they are asked for. Empty on a family without file commands. */
+/** End codes of file commands. */
+export interface FileRefusals {
+  readonly drive: number
+  readonly notFound: number
+  readonly directory: number
+  readonly name: number
+  readonly exists: number
+  readonly space: number
+  readonly password: number
+  readonly readOnly: number
+  /** Locked by Open File. */
+  readonly locked: number
+  /** A kind of file that users cannot handle so. */
+  readonly kind: number
+  /** Beyond the end of the file. */
+  readonly range: number
+  readonly writeProtected: number
+  /** No file is open under this file pointer number. */
+  readonly pointer: number
+  /** Not as things are: too many files open, or open for reading only. */
+  readonly now: number
+  readonly running: number
+  /** The memory itself fails. */
+  readonly failed: number
+  readonly source: string
+}
+
+/** Files and how they are asked for. Without subcommands and drives on a family that has no file commands. */
 export interface FileFacts {
   /** Subcommands of the file commands, the usual one first: 0000, 0004, or 0040 with long names and directories. */
   readonly subcommands: readonly number[]
   readonly drives: readonly Drive[]
+  /** Parameter files, and programs that run, are changed in STOP only. */
+  readonly stopToChange: boolean
+  readonly refusals: FileRefusals
   readonly source: string
 }
 

@@ -122,6 +122,7 @@ export class Connection {
   end(how?: 'close' | 'reset'): void {
     this.#ended = true
     this.#sequence.close()
+    this.#shared.plc.files.disconnected(this.#call.caller)
     if (this.kind === 'stream') this.#held.length = 0
     if (how === 'close') this.#peer.close()
     if (how === 'reset') this.#peer.reset()

@@ -7,6 +7,8 @@ import type { Profile } from '../melsec/profile'
 import type { ExtendUnits, OwnBuffer } from './buffer-memory'
 import type { Cpu } from './cpu'
 import type { ErrorLog } from './error-log'
+import { fileHandlers } from './file-handlers'
+import type { Files } from './files'
 import type { LabelTable } from './labels'
 import type { AccessUnit, DeviceMemory } from './memory'
 import type { PortLock } from './port-lock'
@@ -33,6 +35,7 @@ export interface Call {
   readonly buffer: OwnBuffer
   readonly extendUnits: ExtendUnits
   readonly labels: LabelTable
+  readonly files: Files
   /** Model name, padded to 16 characters, and model code. */
   readonly model: { readonly model: string; readonly modelCode: number }
   readonly caller: Caller
@@ -44,6 +47,7 @@ export interface Call {
 export type Handler<N extends CommandName> = (
   message: MessageOf<Commands[N]['request']>,
   call: Call,
+  subcommand: number,
 ) => MessageInput<Commands[N]['response']>
 
 const FORCED = 3
@@ -158,22 +162,7 @@ export const handlers: { readonly [N in CommandName]: Handler<N> } = {
     extendUnits.write(memory, moduleNumber, address, data)
     return {}
   },
-  readDirectory: noDrive,
-  searchFile: noDrive,
-  newFile: noDrive,
-  deleteFile: noDrive,
-  copyFile: noDrive,
-  changeFileState: noDrive,
-  changeFileDate: noDrive,
-  openFile: noDrive,
-  readFile: noDrive,
-  writeFile: noDrive,
-  closeFile: noDrive,
-}
-
-/** No drives yet. */
-function noDrive(): never {
-  throw new Refusal(0x4021, 'there is no such drive')
+  ...fileHandlers,
 }
 
 function readRandom(memory: DeviceMemory, { words, doubleWords }: RandomDevices) {

@@ -7,6 +7,9 @@ import { modelOf } from '../melsec/model-code'
 import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
 import { passwordProblem } from '../melsec/remote-password'
 import { type Clock, realClock } from '../transport/clock'
+import { drivesOf, type MountedDrive, type SimulatedDrives } from './drives'
+import { fileTimeOf } from './file-clock'
+import type { FilesParts } from './files'
 import type { Call } from './handlers'
 import { LabelTable, type SimulatedLabels } from './labels'
 import type { ExtensionMemory } from './memory'
@@ -64,6 +67,15 @@ export interface PlcSimulatorOptions {
   readonly bufferMemory?: number
   /** Global labels that are open to external devices. Default: none. */
   readonly labels?: SimulatedLabels
+  /** Drives with files, by their numbers. Default: those of the family, with a few files to look at. */
+  readonly drives?: SimulatedDrives
+  /** Files that clients may have open at the same time. Default 16. */
+  readonly maxOpenFiles?: number
+  /**
+   * A connection that ends with files open: `kept` (default, as the manual says) leaves them locked until the same
+   * external device closes them or the PLC starts again, `released` closes them.
+   */
+  readonly fileLocks?: 'kept' | 'released'
   /**
    * Remote password: every connection is locked until it is unlocked, after its end, and over UDP after 10 minutes
    * without traffic. Default: none.
@@ -99,6 +111,9 @@ export interface Settings {
   readonly extensions: ExtensionMemory
   readonly bufferMemory: number
   readonly labels: LabelTable
+  readonly drives: ReadonlyMap<number, MountedDrive>
+  readonly maxOpenFiles: number
+  readonly fileLocks: FilesParts['fileLocks']
   readonly password: string | undefined
   readonly passwordAttempts: number
   readonly lockOutTime: number
@@ -151,6 +166,9 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     extensions: options.extensions ?? {},
     bufferMemory: whole('bufferMemory', options.bufferMemory ?? 0, 0, 0x1000000),
     labels: new LabelTable(options.labels ?? {}),
+    drives: drivesOf(profile, options.drives ?? {}, fileTimeOf((options.clock ?? realClock).time())),
+    maxOpenFiles: whole('maxOpenFiles', options.maxOpenFiles ?? 16, 1, 0x10000),
+    fileLocks: oneOf('fileLocks', options.fileLocks ?? 'kept', ['kept', 'released']),
     password: passwordOf(profile, options.password),
     passwordAttempts: whole('passwordAttempts', options.passwordAttempts ?? 10, 1),
     lockOutTime: milliseconds('lockOutTime', options.lockOutTime ?? 60_000),

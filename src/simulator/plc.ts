@@ -8,7 +8,9 @@ import type { AnyHead } from './any-frame'
 import { ExtendUnits, OwnBuffer } from './buffer-memory'
 import { checkRequest, routeRefusal } from './check'
 import { Cpu, type StateChange } from './cpu'
+import type { MountedDrive } from './drives'
 import { ErrorLog } from './error-log'
+import { Files, type FilesParts } from './files'
 import { type Call, type Caller, type Handler, handlers } from './handlers'
 import type { LabelTable } from './labels'
 import { DeviceMemory, type ExtensionMemory } from './memory'
@@ -33,6 +35,11 @@ export interface PlcParts {
   /** Words. */
   readonly bufferMemory: number
   readonly labels: LabelTable
+  readonly drives: ReadonlyMap<number, MountedDrive>
+  readonly maxOpenFiles: number
+  readonly fileLocks: FilesParts['fileLocks']
+  /** Clock of the PLC, as files have it. */
+  readonly now: FilesParts['now']
   readonly resetAllowed: boolean
   readonly otherStations: 'refuse' | 'silence'
   readonly changed: (change: StateChange) => void
@@ -46,6 +53,7 @@ export class Plc {
   readonly memory: ProgramMemory
   readonly cpu: Cpu
   readonly errors = new ErrorLog()
+  readonly files: Files
   readonly #otherStations: PlcParts['otherStations']
   readonly #devices: DeviceMemory
   readonly #call: Omit<Call, 'caller'>
@@ -67,11 +75,12 @@ export class Plc {
         parts.cleared(scope)
       },
     })
-    const { profile, cpu, errors } = this
+    this.files = new Files({ ...parts, cpu: () => this.cpu.state })
+    const { profile, cpu, errors, files } = this
     const { labels, model, restart } = parts
     const buffer = new OwnBuffer(profile, parts.bufferMemory)
     const extendUnits = new ExtendUnits(profile, parts.extensions)
-    this.#call = { profile, cpu, errors, memory: this.#devices, buffer, extendUnits, labels, model, restart }
+    this.#call = { profile, cpu, errors, memory: this.#devices, buffer, extendUnits, labels, files, model, restart }
     this.#refreshSystemDevices()
   }
 
@@ -113,7 +122,7 @@ export class Plc {
     if (request instanceof Refusal) throw request
     if (respond === undefined) throw new TypeError('a 1E request without a way to answer')
     this.#refreshSystemDevices()
-    return { kind: 'data', body: respond(handle(request.name, request.message, call)) }
+    return { kind: 'data', body: respond(handle(request, call)) }
   }
 
   /** Power goes off: everything that is not latched is lost. */
@@ -121,6 +130,7 @@ export class Plc {
     this.cpu.down()
     this.#devices.clear('unlatched')
     this.#call.buffer.clear()
+    this.files.down()
     this.errors.clear()
   }
 
@@ -129,8 +139,8 @@ export class Plc {
   }
 
   #carryOut(protocol: MelsecProtocol<AnyHead>, request: ReceivedRequest, call: Call): Answer {
-    const { name, command } = request
-    const response = handle(name, request.message, call)
+    const { command } = request
+    const response = handle(request, call)
     if (command.answered === 'no') return { kind: 'none' }
     const context = command.context === undefined ? request.message : (call.caller.monitored ?? {})
     return { kind: 'data', body: protocol.writeResponse(request, response, context) }
@@ -143,8 +153,12 @@ export class Plc {
   }
 }
 
-function handle<N extends CommandName>(name: N, message: ReceivedRequest['message'], call: Call) {
+function handle({ name, message, subcommand }: ReceivedRequest, call: Call) {
+  return handleAs(name, message, call, subcommand)
+}
+
+function handleAs<N extends CommandName>(name: N, message: ReceivedRequest['message'], call: Call, subcommand: number) {
   const handler: Handler<N> = handlers[name]
   // The message was decoded by this command's declaration, from which its type is inferred.
-  return handler(message as Parameters<Handler<N>>[0], call)
+  return handler(message as Parameters<Handler<N>>[0], call, subcommand)
 }

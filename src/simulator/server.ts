@@ -17,11 +17,13 @@ import type { Cpu, StateChange } from './cpu'
 import type { ErrorLog } from './error-log'
 import { Emitter } from './events'
 import { type FaultSubject, Faults } from './faults'
+import { fileTimeOf } from './file-clock'
 import type { ProgramLabels } from './labels'
 import { chosen, type OnDemandData, type OnDemandOptions, onDemandBytes } from './on-demand'
 import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
 import { Plc } from './plc'
 import { RemotePassword } from './port-lock'
+import { ProgramFiles } from './program-files'
 import type { ProgramMemory } from './program-memory'
 import { newCounters, type SimulatorStatistics } from './statistics'
 
@@ -54,7 +56,7 @@ export interface SimulatorEvents {
   state: StateChange
   /** Remote control has set devices to 0: those that are not latched, or all. Initial values are the program's to set. */
   clear: { readonly scope: 'unlatched' | 'all' }
-  /** A client has written devices. */
+  /** A client has written devices, labels, buffer memory or files. */
   write: WriteEvent
   /** Every request, with its end code. */
   request: RequestEvent
@@ -80,6 +82,8 @@ export interface PlcSimulator {
   readonly memory: ProgramMemory
   /** Global labels as a program in the PLC sees them. */
   readonly labels: ProgramLabels
+  /** Files as a program in the PLC sees them. */
+  readonly files: ProgramFiles
   /** State, switch, and who holds it remotely. */
   readonly cpu: Cpu
   readonly faults: Faults
@@ -140,6 +144,7 @@ class Simulator implements PlcSimulator {
   readonly clock: Clock
   readonly memory: ProgramMemory
   readonly labels: ProgramLabels
+  readonly files: ProgramFiles
   readonly cpu: Cpu
   readonly faults = new Faults()
   readonly errors: ErrorLog
@@ -164,6 +169,7 @@ class Simulator implements PlcSimulator {
   constructor(settings: Settings) {
     const { profile, clock, model, latch, extensions, bufferMemory, labels, resetAllowed, otherStations } = settings
     this.#settings = settings
+    const now = () => fileTimeOf(clock.time())
     this.profile = profile
     this.clock = clock
     this.#plc = new Plc({
@@ -173,6 +179,10 @@ class Simulator implements PlcSimulator {
       extensions,
       bufferMemory,
       labels,
+      drives: settings.drives,
+      maxOpenFiles: settings.maxOpenFiles,
+      fileLocks: settings.fileLocks,
+      now,
       resetAllowed,
       otherStations,
       changed: (change) => this.#events.emit('state', change),
@@ -181,6 +191,7 @@ class Simulator implements PlcSimulator {
     })
     this.memory = this.#plc.memory
     this.labels = labels
+    this.files = new ProgramFiles(profile, settings.drives, this.#plc.files, now)
     this.cpu = this.#plc.cpu
     this.errors = this.#plc.errors
     this.#shared = this.#share()

@@ -1,9 +1,11 @@
 // The public names of this room.
 export type { RequestEvent } from './connection'
 export type { Cpu, CpuState, Hold, StateChange, SwitchPosition } from './cpu'
+export type { SimulatedDrive, SimulatedDrives, SimulatedFile } from './drives'
 export type { ErrorLog, LoggedError } from './error-log'
 export { type FaultKind, type FaultParameter, faultKinds } from './fault-kinds'
 export type { ActiveFault, Fault, FaultAim, FaultSubject, Faults } from './faults'
+export type { OpenFile } from './files'
 export type { ProgramLabels, SimulatedLabel, SimulatedLabels } from './labels'
 export type { ExtensionMemory } from './memory'
 export type { PlcSimulatorOptions, PortOptions } from './options'
@@ -17,6 +19,7 @@ export {
   plantVariantOf,
   startDemoPlant,
 } from './plant'
+export type { ProgramFiles } from './program-files'
 export type { ProgramMemory } from './program-memory'
 export {
   type ConnectionInfo,

@@ -133,6 +133,7 @@ export const fileCommands = declare({
     request: { fixed: fixedText('0000', 0, 4), drive, date: value(changedTime), name },
     response: {},
   },
+  // Opening and closing lock and release the file and change nothing in it: whoever may read must be able to open.
   openFile: {
     title: 'Open File',
     code: 0x1827,

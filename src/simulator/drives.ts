@@ -1,0 +1,115 @@
+// The drives of a simulated PLC: what a program says they hold, and what they hold when it says nothing.
+import { RequestError } from '../errors'
+import { type FileTime, isFileTime } from '../melsec/file-time'
+import type { Profile } from '../melsec/profile'
+import { type Drive, type DrivePath, keyOf, MemoryDrive, pathOf } from './drive'
+import { FolderDrive } from './drive-folder'
+import { usualFiles } from './usual-files'
+
+/** A file of a simulated drive. */
+export interface SimulatedFile {
+  /** Text is written in UTF-8. */
+  readonly data: string | Uint8Array
+  readonly readOnly?: boolean
+  /** Default: none. */
+  readonly password?: string
+  /** Default: when the simulator was made. */
+  readonly modified?: FileTime
+}
+
+/** A memory with files. Either in this program's memory, with `files`, or a `folder` of this computer. */
+export interface SimulatedDrive {
+  /** By path, e.g. `LINE.CSV` or `LOG\\LINE.CSV`; only the content, or more. Default: a few, to look at. */
+  readonly files?: Readonly<Record<string, string | Uint8Array | SimulatedFile>>
+  /** Clients can read and change what is in it, and nothing else: no name and no link leads out of it. */
+  readonly folder?: string
+  /** Bytes that fit. Default 4 MiB. */
+  readonly capacity?: number
+  /** System protection of the CPU, or the LOCK switch of a card. Default false. */
+  readonly writeProtected?: boolean
+}
+
+/** By drive number; `false`: there is none, e.g. no card. Drives that are not named have a few files to look at. */
+export type SimulatedDrives = Readonly<Record<number, SimulatedDrive | false>>
+
+/** A drive as the file commands find it. */
+export interface MountedDrive {
+  readonly drive: Drive
+  readonly capacity: number
+  readonly writeProtected: boolean
+  /** Passwords of files, by the key of their path. */
+  readonly passwords: Map<string, string>
+}
+
+const CAPACITY = 4 * 1024 * 1024
+
+function bad(field: string, message: string): never {
+  throw new RequestError('BAD_OPTION', message, field)
+}
+
+/** @throws RequestError BAD_OPTION */
+export function drivesOf(profile: Profile, given: SimulatedDrives, now: FileTime): ReadonlyMap<number, MountedDrive> {
+  const known = profile.files.drives
+  for (const number of Object.keys(given)) {
+    if (known.some((drive) => String(drive.number) === number)) continue
+    const list = known.map((drive) => drive.number).join(', ')
+    bad(`drives.${number}`, `${profile.title} has no drive ${number}${list === '' ? '' : `; its drives are ${list}`}.`)
+  }
+  const own = known.filter(({ number, same }) => {
+    if (same === undefined) return true
+    if (given[number] !== undefined) bad(`drives.${number}`, `Drive ${number} is drive ${same}: give that one.`)
+    return false
+  })
+  return new Map(
+    own.flatMap(({ number }) => {
+      const drive = given[number]
+      return drive === false ? [] : [[number, mounted(profile, number, drive ?? {}, now)] as const]
+    }),
+  )
+}
+
+function mounted(profile: Profile, number: number, given: SimulatedDrive, now: FileTime): MountedDrive {
+  const field = `drives.${number}`
+  if (typeof given !== 'object' || given === null) bad(field, `${field} is an object with files or folder, or false.`)
+  const { files, folder, capacity = CAPACITY, writeProtected = false } = given
+  for (const name of Object.keys(given)) {
+    if (['files', 'folder', 'capacity', 'writeProtected'].includes(name)) continue
+    bad(`${field}.${name}`, `A drive has no ${name}: it has files, folder, capacity, writeProtected.`)
+  }
+  if (!Number.isInteger(capacity) || capacity < 0) bad(`${field}.capacity`, `${field}.capacity is a number of bytes.`)
+  if (folder !== undefined && files !== undefined) bad(field, `${field} is a folder or has files, not both.`)
+  const passwords = new Map<string, string>()
+  if (folder !== undefined) {
+    if (typeof folder !== 'string') bad(`${field}.folder`, `${field}.folder is the path of a folder.`)
+    return { drive: new FolderDrive(folder), capacity, writeProtected, passwords }
+  }
+  const drive = new MemoryDrive(now)
+  for (const [name, file] of Object.entries(files ?? usualFiles(profile, number))) {
+    addFile(drive, passwords, `${field}.files`, name, file, now)
+  }
+  if (drive.used() > capacity) bad(field, `The files of ${field} take ${drive.used()} bytes, more than its capacity.`)
+  return { drive, capacity, writeProtected, passwords }
+}
+
+function addFile(
+  drive: MemoryDrive,
+  passwords: Map<string, string>,
+  field: string,
+  name: string,
+  given: string | Uint8Array | SimulatedFile,
+  now: FileTime,
+): void {
+  const path: DrivePath = pathOf(name) ?? bad(field, `${JSON.stringify(name)} is no file name, e.g. LOG\\LINE.CSV.`)
+  const file: SimulatedFile = typeof given === 'string' || given instanceof Uint8Array ? { data: given } : given
+  const { data, readOnly = false, password = '', modified = now } = file
+  if (typeof data !== 'string' && !(data instanceof Uint8Array)) bad(field, `${name}: data is a text or bytes.`)
+  if (!isFileTime(modified)) bad(field, `${name}: modified is no date a file can have.`)
+  const bytes = Buffer.from(data)
+  if (drive.find(path) !== undefined) bad(field, `${name} is there twice.`)
+  drive.makeDirectories(path.slice(0, -1), now)
+  if (drive.list(path.slice(0, -1)) === undefined) bad(field, `${name}: a part of its path is a file.`)
+  drive.create(path, bytes.length, modified)
+  drive.write(path, 0, bytes)
+  drive.setReadOnly(path, readOnly)
+  if (password !== '') passwords.set(keyOf(path), password)
+}
