@@ -1,5 +1,6 @@
 // Remote control of the CPU and the commands about the PLC itself: thin, named calls over the declarations.
 import { ProtocolError, RequestError } from '../errors'
+import { pcTypeCodes } from '../melsec/a-compatible-type'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { type CommandName, commands } from '../melsec/commands/commands'
 import { modelOf } from '../melsec/model-code'
@@ -106,7 +107,8 @@ export async function identify(send: Send, own: Profile, options?: CallOptions):
   return {
     model: model.trimEnd(),
     modelCode,
-    models: known?.models ?? [],
+    // 1E has type codes of its own, one for several series: no profile follows from them.
+    models: known?.models ?? pcTypeCodes.get(modelCode) ?? [],
     ...(known?.series === undefined ? {} : { series: known.series }),
     ...(known === undefined ? {} : { profile: own.cpu === known.profile ? own.id : known.profile }),
   }

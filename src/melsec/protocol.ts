@@ -198,14 +198,15 @@ export class MelsecProtocol<Head> {
     }
     const text = explainEndCode(frame.endCode, { command: command.name as CommandName })
     const station = information === undefined ? undefined : describeStation(information)
-    const meaning = text === undefined ? 'No text is known for this code.' : `${text.meaning} ${text.remedy}`
+    const meaning = [text?.meaning, text?.cause].filter((part) => part !== undefined).join(' ')
+    const known = text === undefined ? 'No text is known for this code.' : `${meaning} ${text.remedy}`
     return new EndCodeError(
       frame.endCode,
-      `${command.title} was refused with end code ${hex4(frame.endCode)}: ${meaning}${station === undefined ? '' : ` (Reported by ${station}.)`}`,
+      `${command.title} was refused with end code ${hex4(frame.endCode)}: ${known}${station === undefined ? '' : ` (Reported by ${station}.)`}`,
       {
         command: command.title,
         ...(station === undefined ? {} : { station }),
-        ...(text === undefined ? {} : { meaning: text.meaning, remedy: text.remedy }),
+        ...(text === undefined ? {} : { meaning, remedy: text.remedy }),
       },
     )
   }

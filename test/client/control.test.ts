@@ -1,6 +1,6 @@
 /** Remote control, identification, self test and clear error through sockets, as the simulated CPU sees them. */
 import { describe, expect, test } from '@jest/globals'
-import { commands, type EndCodeError, type PlcSimulator, type ProfileId } from '../../src/index'
+import { commands, type EndCodeError, explainEndCode, type PlcSimulator, type ProfileId } from '../../src/index'
 import { ample, failureOf, kinds, links, nextState, until, withLine } from './line'
 
 const REMOTE = 0x408b
@@ -65,6 +65,34 @@ describe.each(kinds)('over %s', (text) => {
         expect(await failureOf(client.selfTest(data))).toMatchObject({ code: 'BAD_MESSAGE', outcome: 'notSent' })
       }
       expect(plc.statistics.requests).toBe(requests)
+    }))
+
+  test('self test: what comes back otherwise breaks the protocol, and the connection is made anew', () =>
+    withLine(text, {}, async ({ plc, client }) => {
+      const wrong = (bytes: Buffer) => Buffer.from(bytes.toString('latin1').replace('ABCD', 'ABCE'), 'latin1')
+      const inner = plc.connect()
+      const openTransport = (): Transport => {
+        const transport = inner()
+        return {
+          kind: transport.kind,
+          description: transport.description,
+          open: (told) => transport.open({ ...told, received: (bytes) => told.received(wrong(bytes)) }),
+          send: (bytes) => transport.send(bytes),
+          renew: () => transport.renew(),
+          close: () => transport.close(),
+        }
+      }
+      const { host, port, profile, code, frame } = client.options
+      const damaged = createMelsecClient({ host, port, profile, code, frame, openTransport })
+      try {
+        await damaged.selfTest('0123')
+        const error = await failureOf(damaged.selfTest('ABCD'))
+        expect(error).toMatchObject({ name: 'ProtocolError', code: 'ECHO_MISMATCH', outcome: 'unknown' })
+        await damaged.selfTest('0123')
+        expect(damaged.statistics).toMatchObject({ protocolErrors: 1, disconnects: 1, connects: 2 })
+      } finally {
+        await damaged.close()
+      }
     }))
 
   test('clear error turns the error LED off', () =>
@@ -232,6 +260,24 @@ test('identify of a CPU that refuses to say it is an end code, and the connectio
     expect(await endCodeOf(client.identify())).toBe(0xc059)
     expect(await client.read('D0')).toBe(0)
     expect(client.statistics.connects).toBe(1)
+  }))
+
+test('a refusal tells what it means, the likely cause for this command, and what to do', () =>
+  withLine('tcp 3E binary q', {}, async ({ plc, client }) => {
+    plc.faults.add({ kind: 'endCode', endCode: 0xc059, commands: ['readTypeName'] })
+    const error = (await failureOf(client.identify())) as EndCodeError
+    const { meaning = '', cause = '', remedy = '' } = explainEndCode(0xc059, { command: 'readTypeName' }) ?? {}
+    expect(cause).toContain('E71')
+    expect(error).toMatchObject({ meaning: `${meaning} ${cause}`, remedy })
+    expect(error.message).toContain(`${meaning} ${cause} ${remedy}`)
+  }))
+
+test('a refusal with a code that nobody knows passes the number on, without a text', () =>
+  withLine('tcp 4E binary iq-r', {}, async ({ plc, client }) => {
+    plc.faults.add({ kind: 'endCode', endCode: 0x9999, commands: ['readTypeName'] })
+    const error = (await failureOf(client.identify())) as EndCodeError
+    expect(error).toMatchObject({ endCode: 0x9999, meaning: undefined, remedy: undefined })
+    expect(error.message).toContain('end code 9999: No text is known for this code.')
   }))
 
 test('a model that nobody knows is given as it is', () =>

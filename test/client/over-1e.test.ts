@@ -111,7 +111,9 @@ describe.each(CODES)('%s', (code) => {
       await client.control.run()
       expect(plc.cpu.state).toBe('RUN')
       expect((await client.selfTest()).roundTrip).toBeGreaterThanOrEqual(0)
-      expect(await client.identify()).toMatchObject({ model: '', modelCode: 0xf3 })
+      // One type code for several CPUs, and no name: models, but no profile.
+      const identity = await client.identify()
+      expect(identity).toEqual({ model: '', modelCode: 0xf3, models: expect.arrayContaining(['FX5U', 'FX3U']) })
     }))
 })
 
