@@ -57,19 +57,38 @@ export function readSettings(stored: StoredSettings, migrations: readonly Migrat
 }
 
 function start(RED: NodeAPI, node: Node, type: UserType, stored: StoredSettings): void {
+  begin(RED, node, stored, type.migrations, (settings, tools, display) => {
+    const work = type.prepare(settings, tools)
+    const { connection, texts } = tools
+    return () => serve(node, { work, connection, display, texts, changesPlc: type.changesPlc })
+  })
+}
+
+/**
+ * Gives a node its connection and its status. With wrong settings it lives all the same, and says so.
+ * @param prepare reads the settings before the node uses its connection; what it returns is called as soon as it does
+ */
+export function begin(
+  RED: NodeAPI,
+  node: Node,
+  stored: StoredSettings,
+  migrations: readonly Migration[],
+  prepare: (settings: StoredSettings, tools: Tools, display: Display) => (() => void) | undefined,
+): void {
   const texts = sharedTexts(RED)
   const display = new Display(node, texts)
   const connection = connectionOf(RED.nodes.getNode(String(stored.connection ?? '')))
   try {
     if (connection === undefined) throw refusal('NOT_CONFIGURED', texts('error.noConnection'))
     if (connection.failure !== undefined) throw connection.failure
-    const work = type.prepare(readSettings(stored, type.migrations, texts), { RED, node, texts, connection })
+    const settings = readSettings(stored, migrations, texts)
+    const go = prepare(settings, { RED, node, texts, connection }, display)
     const leave = connection.join(display)
     node.on('close', () => {
       display.close()
       leave()
     })
-    serve(node, { work, connection, display, texts, changesPlc: type.changesPlc })
+    go?.()
   } catch (error) {
     refuseAll(node, display, failureOf(error, texts), connection?.failure !== undefined)
   }

@@ -232,16 +232,7 @@ describe.each(['tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 'udp 3E binary q', 'ud
           M3: true,
           'D20[2]': [1],
         })
-        expect(Object.keys(results)).toEqual([
-          'D0',
-          'D1',
-          'D2:REAL',
-          'D99999',
-          'D10:STRING(2)',
-          'Q1',
-          'M3',
-          'D20[2]',
-        ])
+        expect(Object.keys(results)).toEqual(['D0', 'D1', 'D2:REAL', 'D99999', 'D10:STRING(2)', 'Q1', 'M3', 'D20[2]'])
         expect(Object.values(results).map(briefWrite)).toEqual([
           'written',
           'BAD_VALUE',

@@ -1,7 +1,7 @@
 /** Every example flow, deployed against the simulated tank, sends what test/matrix/expectations.json says. */
 import { afterAll, beforeAll, expect, test } from '@jest/globals'
 import { type PlcSimulator, startDemoPlant } from '../../src/index'
-import { connectedTo, type Expectation, isOurs, take } from '../support/examples'
+import { connectedTo, type Expectation, isOurs, onDemandOf, take } from '../support/examples'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
 import { portOf, startPlc } from './flow'
@@ -37,10 +37,16 @@ test.each(flows)('%s explains itself, needs no other package, and has ids of its
 })
 
 test.each(flows)('%s works', async (file, flow) => {
-  const { connection, steps } = expectations[file] ?? { steps: [] }
+  const expectation = expectations[file] ?? { steps: [] }
+  const words = onDemandOf(expectation)
   red.forget()
-  await red.deploy(connectedTo(flow, Number(portOf(plc)), connection))
-  for (const step of steps) await take(red, step)
+  await red.deploy(connectedTo(flow, Number(portOf(plc)), expectation.connection))
+  const sending = words && setInterval(() => plc.sendOnDemand(words), 100)
+  try {
+    for (const step of expectation.steps) await take(red, step)
+  } finally {
+    clearInterval(sending)
+  }
   expect(red.log.filter(({ level }) => level === 'error')).toEqual([])
   await red.deploy([])
 })

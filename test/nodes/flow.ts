@@ -46,6 +46,10 @@ export function controlNode(more: Settings = {}): FlowNode {
   return user('control', 'melsec-jw-control', { commandType: 'msg', command: 'payload', ...more })
 }
 
+export function ondemandNode(more: Settings = {}): FlowNode {
+  return user('ondemand', 'melsec-jw-ondemand', { output: 'words', topic: '', ...more })
+}
+
 export function catchNode(): FlowNode {
   return { id: 'catch', type: 'catch', scope: null, uncaught: false, wires: [[]] }
 }

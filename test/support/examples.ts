@@ -46,6 +46,12 @@ function withKinds(value: unknown): unknown {
   return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, withKinds(item)]))
 }
 
+/** The words that `melsec-jw simulate` sends unasked with these options. */
+export function onDemandOf({ simulate = [] }: Expectation): readonly number[] | undefined {
+  const at = simulate.indexOf('--on-demand')
+  return at < 0 ? undefined : (simulate[at + 1] ?? '').split(',').map(Number)
+}
+
 export function isOurs(node: FlowNode): boolean {
   return node.type.startsWith('melsec-jw-')
 }
