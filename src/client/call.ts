@@ -1,6 +1,6 @@
 import { ClosedError, type PlcError, RequestError } from '../errors'
 import type { BodyLength, Exchange, Job, ResponseFrame } from '../link/link'
-import { asPlcError } from './failure'
+import { abortedBeforeSending, asPlcError } from './failure'
 
 /** What every call may say. */
 export interface CallOptions {
@@ -33,8 +33,11 @@ export function optionProblem(options: CallOptions): RequestError | undefined {
 
 /** What happens to the caller's promise. */
 export interface Settle<Head> {
-  /** Reads the answer; throws what it turned out to be instead. `undefined`: nothing was asked (only connecting). */
-  readonly answer: (frame: ResponseFrame<Head> | undefined) => void
+  /**
+   * Reads the answer; throws what it turned out to be instead. `undefined`: nothing was asked (only connecting).
+   * `roundTrip`: ms from sending to the answer.
+   */
+  readonly answer: (frame: ResponseFrame<Head> | undefined, roundTrip: number) => void
   readonly fail: (error: PlcError) => void
 }
 
@@ -74,10 +77,10 @@ export class Call<Head> implements Job<Head> {
   }
 
   /** Settles with the answer. @returns the error the answer turned out to be, if any. */
-  answer(frame: ResponseFrame<Head> | undefined): PlcError | undefined {
+  answer(frame: ResponseFrame<Head> | undefined, roundTrip = 0): PlcError | undefined {
     if (!this.#finish()) return undefined
     try {
-      this.#settle.answer(frame)
+      this.#settle.answer(frame, roundTrip)
       return undefined
     } catch (thrown) {
       const error = asPlcError(thrown)
@@ -92,8 +95,10 @@ export class Call<Head> implements Job<Head> {
 
   /** The error for a call whose signal is aborted. */
   aborted(outcome: 'notSent' | 'unknown'): ClosedError {
-    const what = outcome === 'notSent' ? 'before it was sent' : 'in flight; whether the PLC carried it out is not known'
-    return new ClosedError('ABORTED', `${this.exchange.title} was aborted ${what}.`, outcome, this.#signal?.reason)
+    const { title } = this.exchange
+    if (outcome === 'notSent') return abortedBeforeSending(title, this.#signal?.reason)
+    const message = `${title} was aborted in flight; whether the PLC carried it out is not known.`
+    return new ClosedError('ABORTED', message, outcome, this.#signal?.reason)
   }
 
   #finish(): boolean {

@@ -1,6 +1,6 @@
 // One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
 // It knows no protocol family; Exchange and Framing bring that.
-import { ClosedError, type ConnectionError, type PlcError } from '../errors'
+import type { ConnectionError, PlcError } from '../errors'
 import { type Exchange, type ResponseFrame, SerialNumbers } from '../link/link'
 import type { Clock } from '../transport/clock'
 import { Alarm } from './alarm'
@@ -76,9 +76,22 @@ export class Connection<Head> {
 
   /** Sends a request when its turn comes and resolves with its answer. Every rejection is a `PlcError`. */
   request<T>(exchange: Exchange<Head, T>, options: CallOptions = {}): Promise<T> {
-    return new Promise<T>((resolve, fail) => {
-      const answer = (frame: ResponseFrame<Head> | undefined) => {
-        if (frame !== undefined) resolve(exchange.decode(frame))
+    return this.#ask(exchange, options, (answer) => answer)
+  }
+
+  /** As `request`, for how long it took: ms from sending to the answer, without connecting and waiting. */
+  roundTrip(exchange: Exchange<Head, unknown>, options: CallOptions = {}): Promise<number> {
+    return this.#ask(exchange, options, (_answer, roundTrip) => roundTrip)
+  }
+
+  #ask<T, R>(
+    exchange: Exchange<Head, T>,
+    options: CallOptions,
+    result: (answer: T, roundTrip: number) => R,
+  ): Promise<R> {
+    return new Promise<R>((resolve, fail) => {
+      const answer = (frame: ResponseFrame<Head> | undefined, roundTrip: number) => {
+        if (frame !== undefined) resolve(result(exchange.decode(frame), roundTrip))
       }
       this.#submit(exchange, { answer, fail }, options, this.#options.timeout, true)
     })
@@ -86,8 +99,12 @@ export class Connection<Head> {
 
   /** Resolves when the PLC has answered on this connection; keeps the connection up from now on. */
   connect(options: CallOptions = {}): Promise<void> {
+    const problem = optionProblem(options)
+    if (problem !== undefined) return Promise.reject(problem)
+    const { signal } = options
+    if (signal?.aborted === true) return Promise.reject(failure.abortedBeforeSending(failure.CONNECTING, signal.reason))
     if (this.#supervisor.name === 'connected') return Promise.resolve()
-    const exchange = { ...this.#options.probe(), title: 'Connecting' }
+    const exchange = { ...this.#options.probe(), title: failure.CONNECTING }
     // Longer than an attempt can take, so that it ends with the attempt's own reason.
     const { connectTimeout, supervisor } = this.#options
     const timeout = 2 * connectTimeout + supervisor.settleGap + 1
@@ -125,9 +142,7 @@ export class Connection<Head> {
   #refusalOf({ title }: Exchange<Head, unknown>, signal: AbortSignal | undefined): PlcError | undefined {
     const { name, hopeful, error } = this.#supervisor
     if (name === 'closed' || this.#finishing !== undefined) return failure.closedBeforeSending(title)
-    if (signal?.aborted === true) {
-      return new ClosedError('ABORTED', `${title} was aborted before it was sent.`, 'notSent', signal.reason)
-    }
+    if (signal?.aborted === true) return failure.abortedBeforeSending(title, signal.reason)
     if (name !== 'connected' && !hopeful) return this.#offline(title, error)
     const waiting = this.#waiting()
     return waiting < this.#options.queueLimit ? undefined : failure.queueFull(title, waiting)

@@ -1,10 +1,12 @@
 // Remote control of the CPU and the commands about the PLC itself: thin, named calls over the declarations.
 import { ProtocolError, RequestError } from '../errors'
+import type { Exchange } from '../link/link'
 import { pcTypeCodes } from '../melsec/a-compatible-type'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { type CommandName, commands } from '../melsec/commands/commands'
 import { modelOf } from '../melsec/model-code'
 import type { Profile, ProfileId } from '../melsec/profile'
+import type { ClientProtocol } from '../melsec/protocol'
 import type { CallOptions } from './call'
 import { checkBooleans, shown } from './given'
 
@@ -116,9 +118,21 @@ export async function identify(send: Send, own: Profile, options?: CallOptions):
 
 const LOOPBACK = '0123456789ABCDEF'
 
-/** @throws ProtocolError ECHO_MISMATCH when what comes back is not what was sent. */
-export async function selfTest(send: Send, data = LOOPBACK, options?: CallOptions): Promise<void> {
-  const echoed = await send(commands.selfTest, { data }, options)
-  if (echoed.data === data) return
-  throw new ProtocolError('ECHO_MISMATCH', `Self Test: the PLC returned "${echoed.data}" instead of "${data}".`)
+/**
+ * Self Test: what does not come back as it was sent is an answer that breaks the protocol, and ends the connection.
+ * Its decoder throws ProtocolError ECHO_MISMATCH then.
+ */
+export function selfTestOf<Head>(
+  protocol: Pick<ClientProtocol<Head>, 'exchange'>,
+  data = LOOPBACK,
+): Exchange<Head, ResponseOf<typeof commands.selfTest>> {
+  const asked = protocol.exchange(commands.selfTest, { data })
+  return {
+    ...asked,
+    decode(frame) {
+      const echoed = asked.decode(frame)
+      if (echoed.data === data) return echoed
+      throw new ProtocolError('ECHO_MISMATCH', `Self Test: the PLC returned "${echoed.data}" instead of "${data}".`)
+    },
+  }
 }

@@ -1,18 +1,27 @@
 // The errors of a connection, with what to do about them.
 import { ClosedError, ConnectionError, PlcError, TimeoutError } from '../errors'
 
+/** Title of a call that only waits for the connection. */
+export const CONNECTING = 'Connecting'
+
+/** Such a call sends nothing, so nothing was "not sent". */
+function unsent(title: string): string {
+  return title === CONNECTING ? 'Not connected' : `${title} was not sent`
+}
+
 /** No connection now, and not the first attempt: fail at once instead of letting every call run into its deadline. */
 export function offline(title: string, reason: PlcError | undefined): ConnectionError {
   const causes = reason instanceof ConnectionError || reason instanceof TimeoutError ? reason.causes : []
   const text = reason === undefined ? '' : ` ${reason.message}`
-  const message = `${title} was not sent: there is no connection; it is being restored.${text}`
+  const state = title === CONNECTING ? 'the connection' : 'there is no connection; it'
+  const message = `${unsent(title)}: ${state} is being restored.${text}`
   return new ConnectionError('OFFLINE', message, 'notSent', reason, causes)
 }
 
 /** As `offline`, when no further attempt is made. */
 export function refusedToUnlock(title: string, reason: PlcError | undefined): ConnectionError {
   const message =
-    `${title} was not sent: the PLC refused the remote password. It is not sent again, because the PLC would lock out; ` +
+    `${unsent(title)}: the PLC refused the remote password. It is not sent again, because the PLC would lock out; ` +
     `correct it with setPassword(). ${reason?.message ?? ''}`
   return new ConnectionError('OFFLINE', message, 'notSent', reason)
 }
@@ -30,17 +39,22 @@ export function unlockExpired(peer: string): ConnectionError {
 }
 
 export function closedBeforeSending(title: string): ClosedError {
-  return new ClosedError('CLOSED', `${title} was not sent: the client is closed.`)
+  return new ClosedError('CLOSED', `${unsent(title)}: the client is closed.`)
+}
+
+export function abortedBeforeSending(title: string, reason: unknown): ClosedError {
+  const what = title === CONNECTING ? 'was aborted' : 'was aborted before it was sent'
+  return new ClosedError('ABORTED', `${title} ${what}.`, 'notSent', reason)
 }
 
 export function closedMeanwhile(call: { exchange: { title: string } }, outcome: 'notSent' | 'unknown'): ClosedError {
   const { title } = call.exchange
-  const what = outcome === 'notSent' ? 'was not sent' : 'was in flight'
-  return new ClosedError('CLOSED', `${title} ${what} when the client was closed.`, outcome)
+  const what = outcome === 'notSent' ? unsent(title) : `${title} was in flight`
+  return new ClosedError('CLOSED', `${what} when the client was closed.`, outcome)
 }
 
 export function queueFull(title: string, waiting: number): ClosedError {
-  const message = `${title} was not sent: ${waiting} requests are waiting already. Ask less often, or raise queueLimit.`
+  const message = `${unsent(title)}: ${waiting} requests are waiting already. Ask less often, or raise queueLimit.`
   return new ClosedError('QUEUE_FULL', message)
 }
 

@@ -4,7 +4,7 @@ import { RequestError } from '../errors'
 import type { Command } from '../melsec/command'
 import { FORM_BITS } from '../melsec/form'
 import { show } from '../value/fault'
-import type { Item } from './item'
+import { badAddress, type Item } from './item'
 
 /** Also objects of another realm, as the sandbox of a Node-RED function node makes them. */
 function isPlainObject(given: unknown): given is Readonly<Record<string, unknown>> {
@@ -37,6 +37,14 @@ export function listOf<T>(given: readonly T[], what: string): readonly T[] {
 export function namesOf(given: object, what: string): readonly string[] {
   if (isPlainObject(given)) return Object.keys(given)
   throw new RequestError('BAD_ADDRESS', `${what}, not ${shown(given)}.`)
+}
+
+/** As `namesOf`, of items to read: `{ address: 5 }` is meant as an item and not as a name for one. @throws RequestError */
+export function namesOfItems(given: object, what: string): readonly string[] {
+  const names = namesOf(given, what)
+  const { address }: { readonly address?: unknown } = given
+  if (!names.includes('address') || (typeof address === 'object' && address !== null)) return names
+  throw badAddress(address)
 }
 
 /** @throws RequestError BAD_OPTION when an option is there and no boolean */

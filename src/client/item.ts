@@ -19,6 +19,7 @@ import {
   parseDevice,
 } from '../melsec/address'
 import { deviceInfo, devices, LAST_NUMBER } from '../melsec/device'
+import { show } from '../value/fault'
 import {
   checkFormat,
   formatType,
@@ -128,9 +129,18 @@ type Fail = (code: RequestErrorCode, message: string) => never
 
 const ITEM_FIELDS = ['address', 'type', 'count', 'wordOrder', 'byteOrder', 'encoding', 'trim'] as const
 
+/** An item whose address is no text. */
+export function badAddress(address: unknown): RequestError {
+  const message = `The address of an item is a text, e.g. { address: 'D100', type: 'REAL' }, not ${show(address)}.`
+  return new RequestError('BAD_ADDRESS', message, 'address')
+}
+
 /** An item as an object. @throws RequestError BAD_ADDRESS when it is none, BAD_OPTION for a field that no item has */
 export function checkedItem(item: Item): ItemOptions {
   if (typeof item === 'string') return { address: item }
+  if (typeof item === 'object' && item !== null && 'address' in item && typeof item.address !== 'string') {
+    throw badAddress(item.address)
+  }
   if (typeof item !== 'object' || item === null || typeof item.address !== 'string') {
     throw new RequestError('BAD_ADDRESS', 'An item is a text such as D100:REAL, or an object with such an address.')
   }

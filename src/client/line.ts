@@ -261,11 +261,12 @@ export class Line<Head> {
     const { counters } = this.#owner
     const isProbe = this.#opening.owns(job)
     this.#silent = 0
-    const error = job.answer(frame)
+    const roundTrip = sentAt === undefined ? undefined : this.#options.clock.now() - sentAt
+    const error = job.answer(frame, roundTrip)
     if (!isProbe) {
       counters.add('answered')
       if (error instanceof EndCodeError) counters.add('refused')
-      if (sentAt !== undefined) counters.roundTrip(this.#options.clock.now() - sentAt)
+      if (roundTrip !== undefined) counters.roundTrip(roundTrip)
     }
     if (error !== undefined && endsConnection(error, this.#options.framing.correlation)) {
       counters.add('protocolErrors')

@@ -13,10 +13,10 @@ import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
 import { type CallOptions, optionProblem } from './call'
 import type { ClientEvents, ItemValue, ReadPlan, ReadValue, WriteEntry, WritePlan } from './client-types'
 import { Connection, type ConnectionState } from './connection'
-import { type Control, controlOf, type Identity, identify, type Send, selfTest } from './control'
+import { type Control, controlOf, type Identity, identify, type Send, selfTestOf } from './control'
 import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
-import { checkRequest, isItem, isList, namesOf } from './given'
+import { checkRequest, isItem, isList, namesOf, namesOfItems } from './given'
 import { ItemAccess } from './item-access'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
@@ -218,7 +218,7 @@ export class MelsecClient {
   ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
     if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
     if (isList(items)) return this.#items.prepare(items).run(options)
-    const names = namesOf(items, ITEMS)
+    const names = namesOfItems(items, ITEMS)
     return byName(names, await this.#items.prepare(names.map((name) => items[name] as Item)).run(options))
   }
 
@@ -237,7 +237,7 @@ export class MelsecClient {
   ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
   async readValues(items: readonly Item[] | Readonly<Record<string, Item>>, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
-    const names = namesOf(items, ITEMS)
+    const names = namesOfItems(items, ITEMS)
     const results = await this.#items.prepare(names.map((name) => items[name] as Item)).run(options)
     return byName(names, results.map(plainValue))
   }
@@ -348,11 +348,11 @@ export class MelsecClient {
     return identify(this.#send, this.profile, options)
   }
 
-  /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns the round trip in ms. */
+  /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns ms from sending to the answer. */
   async selfTest(data?: string, options?: CallOptions): Promise<{ readonly roundTrip: number }> {
-    const start = this.#settings.clock.now()
-    await selfTest(this.#send, data, options)
-    return { roundTrip: this.#settings.clock.now() - start }
+    const { deadline } = this.#call(options)
+    const exchange = selfTestOf(this.#protocol, data)
+    return { roundTrip: await this.#connection.roundTrip(exchange, deadline.options(exchange.title)) }
   }
 
   /**

@@ -97,6 +97,17 @@ describe.each(everyLink)('$frame by $kind', (link) => {
       expect([read.told, read.error?.cause, bench.plc.asked]).toEqual(['ABORTED notSent', reason, []])
     })
 
+    test('aborted before: connect does not say that it is connected, connected or not', async () => {
+      const reason = new Error('enough')
+      const signal = AbortSignal.abort(reason)
+      for (const bench of [await Bench.connected(link), new Bench(link)]) {
+        const connecting = bench.follow(bench.connection.connect({ signal }))
+        await bench.settle()
+        expect([connecting.told, connecting.error?.cause]).toEqual(['ABORTED notSent', reason])
+        expect(connecting.error?.message).toBe('Connecting was aborted.')
+      }
+    })
+
     test('aborted in the queue: it is taken out, the others go on', async () => {
       const bench = await Bench.connected(link)
       const abort = new AbortController()

@@ -32,6 +32,20 @@ describe.each(kinds)('connecting by %s', (kind) => {
     await bench.connection.connect()
   })
 
+  test('the round trip of a call is the time of its own request, however long connecting took', async () => {
+    const bench = new Bench({ kind })
+    const late: (() => void)[] = []
+    bench.plc.probe = (asked) => late.push(asked.reply)
+    bench.plc.script = (asked) => late.push(asked.reply)
+    const calls = [1, 2].map((number) => bench.follow(bench.connection.roundTrip(bench.ask.read(number))))
+    for (const wait of [700, 5, 9]) {
+      await bench.pass(wait)
+      late.shift()?.()
+      await bench.settle()
+    }
+    expect(calls.map(({ told }) => told)).toEqual([5, 9])
+  })
+
   test('calls made meanwhile wait, and are sent in their order, one at a time', async () => {
     const bench = new Bench({ kind })
     const reads = [100, 200, 300].map((number) => bench.read(number))
@@ -103,6 +117,21 @@ describe('an attempt that fails', () => {
     expect([read.told, read.error?.cause]).toEqual(['OFFLINE notSent', connecting.error])
     expect(read.error?.message).toContain('was not sent: there is no connection; it is being restored.')
     expect(bench.connection.statistics).toMatchObject({ connects: 1, disconnects: 0, requests: 1 })
+  })
+
+  test('to connect it is said in its own words: connecting sends nothing', async () => {
+    const bench = new Bench()
+    bench.memory.refuse = true
+    bench.follow(bench.connection.connect())
+    await bench.settle()
+    const again = bench.follow(bench.connection.connect())
+    await bench.settle()
+    expect([again.told, again.error?.cause]).toEqual(['OFFLINE notSent', bench.connection.state.error])
+    expect(again.error?.message).toMatch(/^Not connected: the connection is being restored\. /)
+    bench.connection.close()
+    const closed = bench.follow(bench.connection.connect())
+    await bench.settle()
+    expect(closed.error?.message).toBe('Not connected: the client is closed.')
   })
 
   test('accepted and closed at once: all entries of the PLC are taken', async () => {

@@ -1,6 +1,7 @@
 /** Remote control, identification, self test and clear error through sockets, as the simulated CPU sees them. */
 import { describe, expect, test } from '@jest/globals'
 import { commands, type EndCodeError, explainEndCode, type PlcSimulator, type ProfileId } from '../../src/index'
+import type { OpenTransport } from '../../src/transport/transport'
 import { ample, failureOf, kinds, links, nextState, until, withLine } from './line'
 
 const REMOTE = 0x408b
@@ -68,31 +69,26 @@ describe.each(kinds)('over %s', (text) => {
     }))
 
   test('self test: what comes back otherwise breaks the protocol, and the connection is made anew', () =>
-    withLine(text, {}, async ({ plc, client }) => {
+    withLine(text, {}, async ({ plc, another, transport }) => {
       const wrong = (bytes: Buffer) => Buffer.from(bytes.toString('latin1').replace('ABCD', 'ABCE'), 'latin1')
-      const inner = plc.connect()
-      const openTransport = (): Transport => {
-        const transport = inner()
+      const inner = plc.connect({ kind: transport === 'udp' ? 'datagram' : 'stream' })
+      const openTransport: OpenTransport = () => {
+        const carried = inner()
         return {
-          kind: transport.kind,
-          description: transport.description,
-          open: (told) => transport.open({ ...told, received: (bytes) => told.received(wrong(bytes)) }),
-          send: (bytes) => transport.send(bytes),
-          renew: () => transport.renew(),
-          close: () => transport.close(),
+          kind: carried.kind,
+          description: carried.description,
+          open: (told) => carried.open({ ...told, received: (bytes) => told.received(wrong(bytes)) }),
+          send: (bytes) => carried.send(bytes),
+          renew: () => carried.renew(),
+          close: () => carried.close(),
         }
       }
-      const { host, port, profile, code, frame } = client.options
-      const damaged = createMelsecClient({ host, port, profile, code, frame, openTransport })
-      try {
-        await damaged.selfTest('0123')
-        const error = await failureOf(damaged.selfTest('ABCD'))
-        expect(error).toMatchObject({ name: 'ProtocolError', code: 'ECHO_MISMATCH', outcome: 'unknown' })
-        await damaged.selfTest('0123')
-        expect(damaged.statistics).toMatchObject({ protocolErrors: 1, disconnects: 1, connects: 2 })
-      } finally {
-        await damaged.close()
-      }
+      const damaged = another({ openTransport })
+      await damaged.selfTest('0123')
+      const error = await failureOf(damaged.selfTest('ABCD'))
+      expect(error).toMatchObject({ name: 'ProtocolError', code: 'ECHO_MISMATCH', outcome: 'unknown' })
+      await damaged.selfTest('0123')
+      expect(damaged.statistics).toMatchObject({ protocolErrors: 1, disconnects: 1, connects: 2 })
     }))
 
   test('clear error turns the error LED off', () =>

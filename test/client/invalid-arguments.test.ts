@@ -234,6 +234,26 @@ test('what is no list and no item is never taken for an empty one', async () => 
   expect(await client.monitor([]).read()).toEqual([])
 })
 
+test('an object with an address that is no text is an item, and a wrong one', async () => {
+  const wrong = { code: 'BAD_ADDRESS', outcome: 'notSent', field: 'address' }
+  for (const address of [5, true, null, undefined, 5n, Symbol('x'), () => {}]) {
+    for (const method of [client.read, client.readValues]) {
+      expect(await outcomeOf(() => loose(method).call(client, { address, type: 'INT' }))).toMatchObject({
+        thrown: wrong,
+      })
+    }
+    expect(await client.read(['D0', { address } as unknown as string])).toMatchObject([
+      { ok: true },
+      { ok: false, error: wrong },
+    ])
+  }
+  // A name like any other, as long as it names an item.
+  expect(await client.read({ address: { address: 'D0' }, other: 'D1' })).toMatchObject({
+    address: { ok: true },
+    other: { ok: true },
+  })
+})
+
 test('an option of a call that is none is not taken for the usual one', async () => {
   const { requests } = plc.statistics
   for (const options of [
