@@ -29,6 +29,7 @@ export {
   type WritePlan,
 } from './client/melsec-client'
 export type { Monitor } from './client/monitor'
+export type { RequestExplanation } from './client/named-request'
 export type { MelsecClientOptions } from './client/options'
 export {
   type DeviceExplanation,
@@ -64,9 +65,11 @@ export {
 export { explainJwFrame } from './jw/explain-frame'
 export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/address'
 export type { RequestOf, ResponseOf } from './melsec/command'
+export { type CommandDescription, commandNamed, describeCommand } from './melsec/command-name'
 export { type CommandName, type Commands, commands } from './melsec/commands/commands'
 export { unsolicitedCommands } from './melsec/commands/on-demand'
 export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from './melsec/device'
+export type { Notation } from './melsec/device-json'
 export {
   type EndCodeExplanation,
   type ExplainOptions,
@@ -78,6 +81,7 @@ export {
 export { explainFrame, formatExplanation } from './melsec/explain-frame'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
 export { type FileTime, formatFileTime, isFileTime } from './melsec/file-time'
+export { answerToJson, messageFromJson, messageToJson, type ToJsonOptions } from './melsec/message-json'
 export { modelCodes, modelOf } from './melsec/model-code'
 export {
   type DeviceForm,

@@ -4,6 +4,7 @@ import { RequestError } from '../errors'
 import type { Exchange } from '../link/link'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
+import type { Notation } from '../melsec/device-json'
 import { extendUnitOf, type ModulePlace } from '../melsec/extend-unit'
 import type { Head3e } from '../melsec/frame-3e'
 import { lackOf, type Profile } from '../melsec/profile'
@@ -18,10 +19,11 @@ import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
 import { checkRequest, isItem, isList, namesOf, namesOfItems } from './given'
 import { ItemAccess } from './item-access'
+import type { ItemExplanation } from './label-explain'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
 import { type Monitor, type MonitorCall, Registration } from './monitor'
-import type { ItemExplanation } from './label-explain'
+import { explainRequest, type NamedRequest, namedRequest, type RequestExplanation } from './named-request'
 import { checkOnDemand, type Unsolicited, unsolicitedOf } from './on-demand'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import { protocolOf, transportOf } from './parts'
@@ -338,6 +340,48 @@ export class MelsecClient {
     })
   }
 
+  /** How X and Y are numbered in addresses; empty where nobody knows. */
+  get notation(): Notation {
+    const { xyRadix, xyUnknown } = this.#settings
+    return xyUnknown ? {} : { xyRadix }
+  }
+
+  /**
+   * Sends any declared command by its name or code, with its message as JSON: see `messageFromJson`. Execute Monitor also
+   * takes the message of its registration, which is sent before it.
+   * @example await plc.requestByName('readWords', { head: 'D100', points: 2 })   // { values: [..., ...] }
+   */
+  async requestByName(
+    name: string,
+    message: unknown = {},
+    options: CallOptions & Pick<ExchangeOptions, 'form'> = {},
+  ): Promise<Readonly<Record<string, unknown>>> {
+    const named = namedRequest(name, message, this.notation)
+    if (named.before === undefined) return this.request(named.command, named.message, options)
+    const { deadline, send } = this.#call(options)
+    const [registering, asking] = this.#exchangesOf(named, options)
+    return this.#registration.inTurn(deadline, asking.title, async () => {
+      this.#registration.lose()
+      if (registering !== undefined) await send(registering)
+      return send(asking)
+    })
+  }
+
+  /** What `requestByName` would send. @throws RequestError for what it would refuse before sending, but not permissions */
+  explainRequest(name: string, message: unknown = {}): RequestExplanation {
+    const named = namedRequest(name, message, this.notation)
+    this.#exchangesOf(named, {})
+    return explainRequest(named, this.notation)
+  }
+
+  #exchangesOf({ command, message, before }: NamedRequest, options: Pick<ExchangeOptions, 'form'>) {
+    if (before === undefined) return [undefined, this.#protocol.exchange(command, message, options)] as const
+    if (this.#settings.transport === 'udp') throw overUdp(command.title)
+    const registering = this.#protocol.exchange(before.command, before.message, options)
+    const context = registering.message
+    return [registering, this.#protocol.exchange(command, message, { ...options, context })] as const
+  }
+
   #permit(effect: Exchange<Head3e, unknown>['effect'], title: string): void {
     if (effect === 'write' && !this.#settings.allowWrites) throw notPermitted(title, 'allowWrites')
     if (effect === 'control' && !this.#settings.allowControl) throw notPermitted(title, 'allowControl')
@@ -375,6 +419,11 @@ export class MelsecClient {
       ? this.#protocol.exchange(commands.readTypeName, {})
       : this.#protocol.exchange(commands.readWords, { head: { device: 'D', number: 0 }, points: 1 })
   }
+}
+
+/** A registration that arrives twice or late would take the place of another one, and its values would be wrong. */
+function overUdp(title: string): RequestError {
+  return new RequestError('UNSUPPORTED', `${title} over UDP is not safe: use readRandom, or TCP.`, 'transport')
 }
 
 function notPermitted(title: string, option: 'allowWrites' | 'allowControl'): RequestError {

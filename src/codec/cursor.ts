@@ -48,6 +48,10 @@ export interface Reader {
 /** The escape hatch: a value whose two codes differ in more than width, e.g. a device address. */
 export interface ValueCodec<T> {
   readonly name: string
+  /** What a message takes for it, in words; without it the name stands for it. */
+  readonly takes?: string
+  /** A value that an example of a message may hold. */
+  readonly example?: T
   /** The size is in the value and in nothing that stands before it: `size` needs the value. */
   readonly variable?: true
   /** A password: never shown in traces and explanations. */

@@ -1,9 +1,17 @@
+import { hasSecret } from './annotate'
 import type { Count, Field, Shape } from './field'
+import { takesOf } from './takes'
 
 /** One row of a command's documentation: read from the same data the codec runs on. */
 export interface FieldDescription {
   readonly name: string
   readonly kind: string
+  /** What stands in a message for it, in words; absent for what is filled in by itself. */
+  readonly takes?: string
+  /** May be left out of a message that is encoded. */
+  readonly optional?: true
+  /** A password: never shown. */
+  readonly secret?: true
   /** e.g. `1..960` */
   readonly range?: string
   /** Only multiples of this number. */
@@ -24,6 +32,7 @@ export function describe(shape: Shape): FieldDescription[] {
   return Object.entries(shape).map(([name, field]) => ({
     name,
     kind: field.kind === 'value' ? field.codec.name : field.kind,
+    ...takenBy(shape, name, field),
     ...rangeOf(field),
     ...rulesOf(field),
     ...('count' in field ? { count: field.count } : {}),
@@ -32,6 +41,15 @@ export function describe(shape: Shape): FieldDescription[] {
     ...('doc' in field && field.doc !== undefined ? { doc: field.doc } : {}),
     ...(field.kind === 'list' ? { item: describe(field.item) } : {}),
   }))
+}
+
+function takenBy(shape: Shape, name: string, field: Field): Pick<FieldDescription, 'takes' | 'optional' | 'secret'> {
+  const takes = takesOf(shape, name)
+  return {
+    ...(takes === undefined ? {} : { takes }),
+    ...('default' in field && field.default !== undefined ? { optional: true } : {}),
+    ...(hasSecret({ [name]: field }) ? { secret: true } : {}),
+  }
 }
 
 function rangeOf(field: Field): { range?: string } {
@@ -44,6 +62,6 @@ function rulesOf(field: Field): Pick<FieldDescription, 'multipleOf' | 'oneOf' | 
   return {
     ...('multipleOf' in field && field.multipleOf !== undefined ? { multipleOf: field.multipleOf } : {}),
     ...('oneOf' in field && field.oneOf !== undefined ? { oneOf: field.oneOf } : {}),
-    ...('default' in field && field.default !== undefined ? { default: field.default } : {}),
+    ...('default' in field && typeof field.default === 'number' ? { default: field.default } : {}),
   }
 }

@@ -14,6 +14,7 @@ import {
   type VisibleField,
   WIDTH,
 } from './field'
+import { namesOf } from './takes'
 
 export type { Context } from './count'
 
@@ -49,11 +50,6 @@ function bagToWrite(shape: Shape, given: unknown): Bag {
     throw named(name, new RequestError('BAD_MESSAGE', `${reason}; it has ${namesOf(shape)}`))
   }
   return message
-}
-
-function namesOf(shape: Shape): string {
-  const names = Object.keys(shape).filter((name) => isVisible(shape[name] as Field))
-  return names.length === 0 ? 'no fields' : names.join(', ')
 }
 
 /** Puts the field's name in front of what is wrong with it, so that nested lists give a path. */

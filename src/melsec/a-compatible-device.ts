@@ -36,6 +36,8 @@ const LAST_OCTAL = 8 ** 8 - 1
 /** Device and number of a 1E request. Of the form bits only FORM_XY_OCTAL has a meaning here. */
 export const aCompatibleDevice: ValueCodec<DeviceAddress> = {
   name: 'A-compatible device',
+  takes: 'a device such as "D100"',
+  example: { device: 'D', number: 100 },
   write(writer, address) {
     checkAddress(address)
     const row = rowOf(address)

@@ -40,6 +40,8 @@ export const FORM_ZR_HEX = 0x200
  */
 export const deviceAddress: ValueCodec<DeviceAddress> = {
   name: 'device',
+  takes: 'a device such as "D100"',
+  example: { device: 'D', number: 100 },
   write(writer, address) {
     checkAddress(address)
     const problem = formProblem(address, writer.ascii, writer.form)

@@ -51,6 +51,8 @@ function onWire(bytes: number, ascii: boolean): number {
 /** A number of a drive; which there are is in the profile. */
 export const driveNumber: ValueCodec<number> = {
   name: 'drive',
+  takes: 'the number of a drive, 0 to 65535',
+  example: 4,
   write(writer, value) {
     if (!Number.isInteger(value) || value < 0 || value > 0xffff) bad('must be the number of a drive, 0 to 65535')
     writer.uint(value, 2)
@@ -69,6 +71,8 @@ function joined({ stem, extension }: ShortName): string {
  */
 export const fileName: ValueCodec<string> = {
   name: 'file name',
+  takes: 'the name of a file',
+  example: 'LOG.CSV',
   variable: true,
   write(writer, value) {
     if (isUtf16(writer.form)) {
@@ -95,6 +99,8 @@ export const fileName: ValueCodec<string> = {
 /** Path of a directory from the root, '' the root itself. 0000: there are no directories, 0000 stands here. */
 export const directoryPath: ValueCodec<string> = {
   name: 'directory path',
+  takes: "the path of a directory from the root, '' for the root",
+  example: '',
   variable: true,
   write(writer, value) {
     const path = checkLongPath(value, 'directory')
@@ -133,6 +139,7 @@ function readShortPassword(reader: Reader): string {
 /** Password of a file, '' for none. 0000 and 0004: 4 characters, none is 4 spaces. 0040: length and characters. */
 export const filePassword: ValueCodec<string> = {
   name: 'file password',
+  takes: "a text, '' for none",
   variable: true,
   secret: true,
   write(writer, value) {
@@ -155,6 +162,7 @@ export const filePassword: ValueCodec<string> = {
 /** As `filePassword`, of commands that take none with 0040: there it is fixed, `0000` or four bytes 00. */
 export const searchPassword: ValueCodec<string> = {
   name: 'file password',
+  takes: "a text, '' for none",
   secret: true,
   write(writer, value) {
     checkPassword(value)
@@ -189,6 +197,8 @@ function writeFileNumber(writer: Writer, value: number): void {
 /** Number of a file on its drive, from 1. 0000: 2 bytes. 0040: 4 bytes. */
 export const fileNumber: ValueCodec<number> = {
   name: 'file number',
+  takes: 'a file number, a whole number from 0',
+  example: 1,
   write: writeFileNumber,
   read: (reader) => reader.uint(isUtf16(reader.form) ? 4 : 2),
   size: (ascii, form) => onWire(isUtf16(form) ? 4 : 2, ascii),

@@ -19,6 +19,8 @@ function onWire(bytes: number, ascii: boolean): number {
  */
 export const labelName: ValueCodec<string> = {
   name: 'label name',
+  takes: 'the name of a label',
+  example: 'Line1.Speed',
   variable: true,
   write(writer, value) {
     if (typeof value !== 'string' || value === '') bad('must be the name of a label')
@@ -43,6 +45,8 @@ export const labelName: ValueCodec<string> = {
  */
 export const labelData: ValueCodec<readonly number[]> = {
   name: 'label data',
+  takes: 'an array of words (0 to 65535)',
+  example: [1234],
   variable: true,
   write(writer, value) {
     if (!Array.isArray(value)) bad('must be an array of words')
@@ -92,6 +96,8 @@ function checkArea(value: LabelArea): void {
 function areaCodec(name: string, spare: 0 | 1): ValueCodec<LabelArea> {
   return {
     name,
+    takes: 'an object with unit (0 bits, 1 bytes), length and words',
+    example: { unit: 1, length: 2, words: [1234] },
     variable: true,
     write(writer: Writer, value) {
       checkArea(value)

@@ -8,6 +8,8 @@ import { FORM_LONG } from './device-codec'
  */
 export const setReset: ValueCodec<boolean> = {
   name: 'set/reset',
+  takes: 'true (set) or false (reset)',
+  example: true,
   write(writer, value) {
     if (typeof value !== 'boolean') throw new RequestError('BAD_MESSAGE', `must be true or false, is ${String(value)}`)
     writer.uint(value ? 1 : 0, widthOf(writer.form))
