@@ -35,6 +35,8 @@ interface OfCommand {
   /** Name of the command's declaration. */
   readonly command: string
   readonly form?: Form
+  /** File commands. */
+  readonly subcommand?: number
   /** Radix of X and Y in ASCII code when it is not 16. */
   readonly xyRadix?: 8
   /** 1C only: wait before the answer, in ms. */
@@ -213,6 +215,23 @@ export interface LabelAbbreviationsVector extends Known {
   readonly names: readonly string[]
 }
 
+/** One value of a file command. */
+export interface FileValueVector extends Known {
+  readonly kind: 'fileValue'
+  readonly codec: 'fileName' | 'directoryPath' | 'fileNumber'
+  readonly subcommand: number
+  readonly value: string | number
+  /** `false`: without its length in front. */
+  readonly counted?: false
+}
+
+/** One file in the answer of Read Directory/File. */
+export interface FileEntryVector extends Known {
+  readonly kind: 'fileEntry'
+  readonly subcommand: number
+  readonly entry: Message
+}
+
 export type Vector =
   | RequestDataVector
   | PrefixVector
@@ -232,9 +251,20 @@ export type Vector =
   | Device1cVector
   | LabelNameVector
   | LabelAbbreviationsVector
+  | FileValueVector
+  | FileEntryVector
 
-/** One file each: SLMP (and 3E, 4E), labels of SLMP, 1E, serial for format 5, serial for formats 1 and 4, JW 24H and 34H, other JW. */
-export const FAMILIES = ['slmp', 'labels', 'mc-ethernet-1e', 'mc-serial', 'mc-serial-ascii', 'jw', 'jw-later'] as const
+/** One file each: SLMP (and 3E, 4E), labels and files of SLMP, 1E, serial for format 5, serial for formats 1 and 4, JW 24H and 34H, other JW. */
+export const FAMILIES = [
+  'slmp',
+  'labels',
+  'files',
+  'mc-ethernet-1e',
+  'mc-serial',
+  'mc-serial-ascii',
+  'jw',
+  'jw-later',
+] as const
 export type Family = (typeof FAMILIES)[number]
 
 /** The vectors of a family, in the order of the manual. */
