@@ -9,13 +9,15 @@ import { textIn, wordIn } from './stored'
 import type { Texts } from './texts'
 import { evaluate } from './typed-input'
 
-const migrations: readonly Migration[] = []
+/** Flows made before there was `verify` go on as they did. */
+const migrations: readonly Migration[] = [{ version: 2, up: (settings) => ({ verify: false, ...settings }) }]
 
 const clearModes = ['keep', 'exceptLatched', 'all'] as const satisfies readonly ClearMode[]
 
 interface Options {
   readonly force: boolean
   readonly clear: ClearMode
+  readonly verify: boolean
 }
 
 interface Command {
@@ -31,17 +33,23 @@ const commands = {
   clearError: { controls: true, run: (client) => nothing(client.clearError()) },
   run: {
     controls: true,
-    run: async (client, { force, clear }) => {
-      await client.control.run({ force, clear })
-      return { force, clear }
+    run: async (client, { force, clear, verify }) => {
+      await client.control.run({ force, clear, verify })
+      return { force, clear, ...verified(verify) }
     },
   },
-  stop: { controls: true, run: (client) => nothing(client.control.stop()) },
+  stop: {
+    controls: true,
+    run: async (client, { verify }) => {
+      await client.control.stop({ verify })
+      return verified(verify)
+    },
+  },
   pause: {
     controls: true,
-    run: async (client, { force }) => {
-      await client.control.pause({ force })
-      return { force }
+    run: async (client, { force, verify }) => {
+      await client.control.pause({ force, verify })
+      return { force, ...verified(verify) }
     },
   },
   latchClear: { controls: true, run: (client) => nothing(client.control.latchClear()) },
@@ -49,6 +57,11 @@ const commands = {
 } as const satisfies Record<string, Command>
 
 type CommandName = keyof typeof commands
+
+/** Only a state that was read back is told. */
+function verified(verify: boolean): { verified?: true } {
+  return verify ? { verified: true } : {}
+}
 
 async function nothing(command: Promise<void>): Promise<object> {
   await command
@@ -62,7 +75,11 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
   const { RED, node, connection, texts } = tools
   const type = wordIn(settings, 'commandType', sources, texts)
   const value = textIn(settings, 'command', texts)
-  const usual: Options = { force: settings.force === true, clear: wordIn(settings, 'clear', clearModes, texts) }
+  const usual: Options = {
+    force: settings.force === true,
+    clear: wordIn(settings, 'clear', clearModes, texts),
+    verify: settings.verify === true,
+  }
   const fixed = type === 'command' ? commandNamed(value, texts) : undefined
   return async (message) => {
     const given = fixed === undefined ? await evaluate(RED, node, message, { value, type }) : undefined
@@ -77,14 +94,15 @@ function carryOut(connection: Connection, name: CommandName, options: Options): 
   return command.run(command.controls ? connection.clientFor('control') : connection.client, options)
 }
 
-/** `'stop'` or `{ command: 'run', force: true, clear: 'all' }`; what is left out is the node's. */
+/** `'stop'` or `{ command: 'run', force: true, clear: 'all', verify: true }`; what is left out is the node's. */
 function chosen(given: unknown, usual: Options, texts: Texts): { name: CommandName; options: Options } {
   if (typeof given !== 'object' || given === null) return { name: commandNamed(given, texts), options: usual }
-  const { command, force = usual.force, clear = usual.clear } = given as Record<string, unknown>
+  const { command, force = usual.force, clear = usual.clear, verify = usual.verify } = given as Record<string, unknown>
   if (typeof force !== 'boolean') throw refusal('BAD_INPUT', texts('error.badForce'))
+  if (typeof verify !== 'boolean') throw refusal('BAD_INPUT', texts('error.badVerify'))
   const clearMode = clearModes.find((mode) => mode === clear)
   if (clearMode === undefined) throw refusal('BAD_INPUT', texts('error.badClear', { choices: clearModes.join(', ') }))
-  return { name: commandNamed(command, texts), options: { force, clear: clearMode } }
+  return { name: commandNamed(command, texts), options: { force, clear: clearMode, verify } }
 }
 
 function commandNamed(given: unknown, texts: Texts): CommandName {

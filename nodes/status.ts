@@ -35,6 +35,7 @@ const FAILURE_TEXTS = {
   CLOSED: 'closed',
   ABORTED: 'closed',
   QUEUE_FULL: 'queueFull',
+  NOT_VERIFIED: 'notVerified',
   NOT_CONFIGURED: 'badSettings',
   BAD_INPUT: 'badInput',
   READ_BACK: 'readBack',

@@ -42,6 +42,7 @@ export type ConnectionErrorCode =
   | 'SILENT' // connected, but nothing answers
   | 'OFFLINE' // failing fast while the connection is being restored
 export type ClosedErrorCode = 'CLOSED' | 'ABORTED' | 'QUEUE_FULL'
+export type VerifyErrorCode = 'NOT_VERIFIED'
 export type PlcErrorCode =
   | RequestErrorCode
   | EndCodeErrorCode
@@ -49,6 +50,7 @@ export type PlcErrorCode =
   | TimeoutErrorCode
   | ConnectionErrorCode
   | ClosedErrorCode
+  | VerifyErrorCode
 
 const BRAND = 'melsec-jw.error'
 
@@ -186,6 +188,23 @@ export class ClosedError extends PlcError {
     cause?: unknown,
   ) {
     super('ClosedError', message, cause)
+  }
+}
+
+/**
+ * Remote control that the PLC has carried out, but the CPU is not in the state it was to be in, or does not tell. The
+ * connection lives. The outcome is `unknown`: the command may take effect later, e.g. when somebody turns the switch.
+ */
+export class VerifyError extends PlcError {
+  readonly code = 'NOT_VERIFIED'
+  readonly outcome = 'unknown'
+  constructor(
+    message: string,
+    /** The state the CPU told last, e.g. `STOP`; undefined when it could not be read. */
+    readonly state?: string,
+    cause?: unknown,
+  ) {
+    super('VerifyError', message, cause)
   }
 }
 

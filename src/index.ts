@@ -4,7 +4,7 @@
 export type { BufferMemory } from './client/buffer-memory'
 export type { CallOptions } from './client/call'
 export type { ConnectionState } from './client/connection'
-export type { ClearMode, Control, Identity, PauseOptions, RunOptions } from './client/control'
+export type { ClearMode, Control, Identity, PauseOptions, RunOptions, StopOptions } from './client/control'
 export type { ItemExplanation, LabelExplanation } from './client/label-explain'
 export type {
   LabelFormat,
@@ -61,6 +61,7 @@ export {
   ProtocolError,
   RequestError,
   TimeoutError,
+  VerifyError,
 } from './errors'
 export { explainJwFrame } from './jw/explain-frame'
 export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/address'

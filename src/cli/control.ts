@@ -1,4 +1,4 @@
-import { type ClearMode, type MelsecClient, RequestError } from '../index'
+import { type ClearMode, type MelsecClient, RequestError, type RunOptions } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, choice, peerText, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
@@ -7,7 +7,7 @@ import { refusalOf, type Terminal } from './terminal'
 
 const examples = [
   'control stop --plc 192.168.3.39:5010 --profile iq-r',
-  'control run --plc 192.168.3.39:5010 --profile iq-r --yes',
+  'control run --plc 192.168.3.39:5010 --profile iq-r --yes --verify',
   'control run --plc 192.168.3.39:5010 --profile iq-r --force --clear all',
 ]
 
@@ -15,14 +15,22 @@ interface ControlOptions extends ConnectionOptions {
   readonly yes?: boolean
   readonly force?: boolean
   readonly clear?: ClearMode
+  readonly verify?: boolean
 }
+
+const EXTRAS = ['force', 'clear', 'verify'] as const
+type Extra = (typeof EXTRAS)[number]
 
 interface Action {
   readonly title: string
   /** What it does to the plant. */
   readonly effect: string
-  readonly takes: readonly ('force' | 'clear')[]
+  readonly takes: readonly Extra[]
+  /** It changes nothing in the CPU: nobody is asked. */
+  readonly harmless?: true
   readonly done: string
+  /** The same with --verify. */
+  readonly verified?: string
   run(client: MelsecClient, options: ControlOptions): Promise<void>
 }
 
@@ -33,24 +41,26 @@ const ACTIONS: Readonly<Record<string, Action>> = {
   run: {
     title: 'Remote RUN',
     effect: 'the CPU executes its program: the machine may move',
-    takes: ['force', 'clear'],
+    takes: ['force', 'clear', 'verify'],
     done: 'Carried out. With its switch at STOP the CPU stays in STOP.',
-    run: ({ control }, { force, clear }) =>
-      control.run({ ...(force === undefined ? {} : { force }), ...(clear === undefined ? {} : { clear }) }),
+    verified: 'Carried out, and the CPU is in RUN.',
+    run: ({ control }, options) => control.run(given(options)),
   },
   stop: {
     title: 'Remote STOP',
     effect: 'the CPU stops its program, and its outputs go OFF',
-    takes: [],
+    takes: ['verify'],
     done: 'Carried out.',
-    run: ({ control }) => control.stop(),
+    verified: 'Carried out, and the CPU is in STOP.',
+    run: ({ control }, options) => control.stop(given(options)),
   },
   pause: {
     title: 'Remote PAUSE',
     effect: 'the CPU stops its program, and its outputs stay as they are',
-    takes: ['force'],
+    takes: ['force', 'verify'],
     done: 'Carried out.',
-    run: ({ control }, { force }) => control.pause(force === undefined ? {} : { force }),
+    verified: 'Carried out, and the CPU is in PAUSE.',
+    run: ({ control }, options) => control.pause(given(options)),
   },
   'latch-clear': {
     title: 'Remote latch clear',
@@ -66,17 +76,48 @@ const ACTIONS: Readonly<Record<string, Action>> = {
     done: 'Sent. A CPU that resets does not answer, and drops its connections.',
     run: ({ control }) => control.reset(),
   },
+  'clear-error': {
+    title: 'Clear error',
+    effect: 'the error codes of the connected module are cleared and its error LED goes off',
+    takes: [],
+    done: 'Carried out.',
+    run: (client) => client.clearError(),
+  },
+  'self-test': {
+    title: 'Self test',
+    effect: 'characters are sent to the connected module and back; nothing changes',
+    takes: [],
+    harmless: true,
+    done: 'What was sent came back.',
+    run: async (client) => {
+      await client.selfTest()
+    },
+  },
+}
+
+/** The options that were given. */
+function given({ force, clear, verify }: ControlOptions): RunOptions {
+  return {
+    ...(force === undefined ? {} : { force }),
+    ...(clear === undefined ? {} : { clear }),
+    ...(verify === undefined ? {} : { verify }),
+  }
 }
 
 /** `melsec-jw control` */
 export const controlCommand: MakeCommand = (run) => {
   const list = Object.entries(ACTIONS).map(([name, { title, effect }]) => `  ${name.padEnd(12)} ${title}: ${effect}`)
-  const command = newCommand('control', 'remote RUN, STOP, PAUSE, latch clear, reset (asks before)', examples)
+  const command = newCommand(
+    'control',
+    'remote RUN, STOP, PAUSE, latch clear, reset (asks before), self test',
+    examples,
+  )
     .description('Remote control of the CPU, after asking. It is never repeated by itself.')
     .argument('<action>', `one of ${Object.keys(ACTIONS).join(', ')}`)
     .optionsGroup('Control:')
     .option('-y, --yes', 'do not ask')
     .option('--force', 'run and pause: also when another device has stopped or paused the CPU')
+    .option('--verify', 'run, stop and pause: read the state of the CPU back')
     .addOption(choice('--clear <what>', 'run: devices that are cleared before', CLEAR_MODES))
   addConnectionOptions(command).addHelpText('after', `\nActions:\n${list.join('\n')}`)
   return command.action((name: string, options: ControlOptions) =>
@@ -87,11 +128,11 @@ export const controlCommand: MakeCommand = (run) => {
 async function control(terminal: Terminal, name: string, options: ControlOptions): Promise<number> {
   const action = actionOf(name, options)
   const question = `${action.title} of ${peerText(options)}: ${action.effect}.`
-  const refusal = await refusalOf(terminal, options.yes === true, question)
+  const refusal = await refusalOf(terminal, options.yes === true || action.harmless === true, question)
   if (refusal !== undefined) throw new RequestError('NOT_PERMITTED', `Nothing was sent. ${refusal}`, '--yes')
   await withClient(terminal, options, { allowControl: true }, (client) => action.run(client, options))
   if (options.json === true) terminal.out(json({ plc: peerText(options), action: name, ok: true }))
-  else terminal.out(`${action.title}: ${action.done}`)
+  else terminal.out(`${action.title}: ${options.verify === true ? (action.verified ?? action.done) : action.done}`)
   return exitCodes.ok.code
 }
 
@@ -104,7 +145,7 @@ function actionOf(name: string, options: ControlOptions): Action {
       'action',
     )
   }
-  for (const option of ['force', 'clear'] as const) {
+  for (const option of EXTRAS) {
     if (options[option] !== undefined && !action.takes.includes(option)) {
       throw new RequestError('BAD_OPTION', `${action.title} takes no --${option}.`, option)
     }

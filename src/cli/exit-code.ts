@@ -7,6 +7,7 @@ import {
   ProtocolError,
   RequestError,
   TimeoutError,
+  VerifyError,
 } from '../index'
 
 /** Exit codes with their meaning. */
@@ -18,6 +19,7 @@ export const exitCodes = {
   unreachable: { code: 4, meaning: 'no connection, or no answer in time' },
   protocol: { code: 5, meaning: 'what was received breaks the protocol; of decode: the frame is wrong' },
   partly: { code: 6, meaning: 'some items failed, others did not' },
+  notVerified: { code: 7, meaning: 'carried out, but the CPU is not in the state it was to be in, or does not tell' },
 } as const
 
 export type ExitName = keyof typeof exitCodes
@@ -28,6 +30,7 @@ export function exitOf(error: PlcError): number {
   if (error instanceof ClosedError && error.cause instanceof PlcError) return exitOf(error.cause)
   if (error instanceof RequestError) return exitCodes.usage.code
   if (error instanceof EndCodeError) return exitCodes.refused.code
+  if (error instanceof VerifyError) return exitCodes.notVerified.code
   if (error instanceof ProtocolError) return exitCodes.protocol.code
   if (error instanceof ConnectionError || error instanceof TimeoutError || error instanceof ClosedError) {
     return exitCodes.unreachable.code

@@ -7,8 +7,11 @@ import { type CommandName, commands } from '../melsec/commands/commands'
 import { modelOf } from '../melsec/model-code'
 import type { Profile, ProfileId } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
+import type { Clock } from '../transport/clock'
 import type { CallOptions } from './call'
+import { Deadline } from './deadline'
 import { checkBooleans, shown } from './given'
+import { type CpuStateName, statusOf, verify } from './verify'
 
 /** Sends one command: what the client gives to the functions here. */
 export type Send = <C extends Command<(typeof commands)[CommandName], string>>(
@@ -21,14 +24,23 @@ export type Send = <C extends Command<(typeof commands)[CommandName], string>>(
 export type ClearMode = 'keep' | 'exceptLatched' | 'all'
 const CLEAR_MODES = { keep: 0, exceptLatched: 1, all: 2 } as const satisfies Record<ClearMode, number>
 
-export interface RunOptions extends CallOptions {
+/** Of RUN, STOP and PAUSE. */
+export interface StopOptions extends CallOptions {
+  /**
+   * Reads the state of the CPU back (SD203) until it is reached, within the timeout of the call. Default false: the call
+   * ends when the PLC has taken the command.
+   */
+  readonly verify?: boolean
+}
+
+export interface RunOptions extends StopOptions {
   /** Also when another device stopped or paused the CPU: for when that device is broken. Default false. */
   readonly force?: boolean
   /** Devices cleared before it runs; initial values of the parameters are set after. Default `keep`. */
   readonly clear?: ClearMode
 }
 
-export interface PauseOptions extends CallOptions {
+export interface PauseOptions extends StopOptions {
   readonly force?: boolean
 }
 
@@ -40,11 +52,14 @@ export interface Control {
   /**
    * Remote RUN. With the switch of the CPU at STOP it completes normally, but the CPU stays in STOP.
    * @throws EndCodeError when another device stopped it and `force` is not given.
+   * @throws VerifyError with `verify`, when the CPU does not run afterwards.
+   * @throws RequestError UNSUPPORTED with `verify` where the state cannot be read (1E, FX3, generic); nothing is sent.
+   * @example await plc.control.run({ verify: true })
    */
   run(options?: RunOptions): Promise<void>
-  /** Remote STOP. */
-  stop(options?: CallOptions): Promise<void>
-  /** Remote PAUSE: the program stops, outputs are held. */
+  /** Remote STOP. `verify` as of `run`. */
+  stop(options?: StopOptions): Promise<void>
+  /** Remote PAUSE: the program stops, outputs are held. `verify` as of `run`. */
   pause(options?: PauseOptions): Promise<void>
   /** Clears the latched devices; the CPU must be in STOP. `value`: the field some manuals print as 0 (FX5); default 1. */
   latchClear(options?: CallOptions & { readonly value?: 0 | 1 }): Promise<void>
@@ -64,11 +79,38 @@ export interface Identity {
   readonly profile?: ProfileId
 }
 
-export function controlOf(send: Send, profile: Profile): Control {
+/** What remote control is made of. */
+export interface ControlParts {
+  readonly send: Send
+  /** Of the frame that is spoken: 1E reaches less. */
+  readonly profile: Profile
+  readonly clock: Clock
+  /** ms of a call that says none. */
+  readonly timeout: number
+}
+
+export function controlOf(parts: ControlParts): Control {
+  const { send, profile } = parts
   const mode = (force: boolean | undefined) => (force === true ? 3 : 1)
+  /** The command and the reading share one deadline; what cannot be verified is not sent. */
+  const verified = async (
+    wanted: CpuStateName,
+    { title }: Command,
+    { verify: wants, ...call }: StopOptions,
+    act: (options: CallOptions) => Promise<unknown>,
+  ): Promise<void> => {
+    if (wants !== true) {
+      await act(call)
+      return
+    }
+    const status = statusOf(profile, title)
+    const deadline = new Deadline(parts.clock, call, parts.timeout)
+    await act(deadline.options(title))
+    await verify({ send, clock: parts.clock, status, deadline, command: title, wanted })
+  }
   return {
     run: async (options = {}) => {
-      checkBooleans(options, ['force'])
+      checkBooleans(options, ['force', 'verify'])
       const { force, clear = 'keep', ...call } = options
       if (typeof clear !== 'string' || !Object.hasOwn(CLEAR_MODES, clear)) {
         const modes = Object.keys(CLEAR_MODES).join(', ')
@@ -82,15 +124,18 @@ export function controlOf(send: Send, profile: Profile): Control {
           'clear',
         )
       }
-      await send(commands.remoteRun, { mode: mode(force), clearMode }, call)
+      const message = { mode: mode(force), clearMode } as const
+      await verified('RUN', commands.remoteRun, call, (rest) => send(commands.remoteRun, message, rest))
     },
-    stop: async (call = {}) => {
-      await send(commands.remoteStop, {}, call)
+    stop: async (options = {}) => {
+      checkBooleans(options, ['verify'])
+      await verified('STOP', commands.remoteStop, options, (call) => send(commands.remoteStop, {}, call))
     },
     pause: async (options = {}) => {
-      checkBooleans(options, ['force'])
+      checkBooleans(options, ['force', 'verify'])
       const { force, ...call } = options
-      await send(commands.remotePause, { mode: mode(force) }, call)
+      const message = { mode: mode(force) } as const
+      await verified('PAUSE', commands.remotePause, call, (rest) => send(commands.remotePause, message, rest))
     },
     latchClear: async (options = {}) => {
       checkBooleans(options, [])

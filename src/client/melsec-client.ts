@@ -116,7 +116,8 @@ export class MelsecClient {
     })
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = (command, message, call) => this.request(command, message, call)
-    this.control = controlOf(this.#send, settings.profile)
+    const { clock, timeout } = settings
+    this.control = controlOf({ send: this.#send, profile: this.#protocol.profile, clock, timeout })
     this.labels = labelsOf({
       call: (call) => {
         const { send } = this.#call(call)

@@ -130,3 +130,29 @@ describe('values as they are typed', () => {
     }
   })
 })
+
+describe('control with --verify', () => {
+  test('says that the CPU got there', async () => {
+    const { code, out } = await asked('y', 'control', 'stop', '--verify')
+    expect([code, out]).toEqual([0, 'Remote STOP: Carried out, and the CPU is in STOP.\n'])
+    expect((await asked('y', 'control', 'run', '--verify')).out).toContain('the CPU is in RUN')
+  })
+
+  test('the switch at STOP is exit code 7, and says why', async () => {
+    plc.cpu.switch = 'STOP'
+    const { code, err } = await asked('y', 'control', 'run', '--verify', '--timeout', '300')
+    expect(code).toBe(7)
+    expect(err).toContain('in STOP, not in RUN (SD203 = 0002H): its RUN/STOP switch is at STOP')
+  })
+})
+
+describe('control of the module', () => {
+  test('clear error asks, self test does not', async () => {
+    const cleared = await asked('n', 'control', 'clear-error')
+    expect([cleared.code, cleared.questions.length]).toEqual([2, 1])
+    expect((await asked('y', 'control', 'clear-error')).code).toBe(0)
+    const tested = await asked('n', 'control', 'self-test')
+    expect([tested.code, tested.questions]).toEqual([0, []])
+    expect(tested.out).toContain('What was sent came back.')
+  })
+})

@@ -316,8 +316,9 @@ describe('control', () => {
   })
 
   test.each([
-    [['control', 'explode', '--yes'], /choose run, stop, pause, latch-clear, reset/],
+    [['control', 'explode', '--yes'], /choose run, stop, pause, latch-clear, reset, clear-error, self-test/],
     [['control', 'stop', '--force', '--yes'], /takes no --force/],
+    [['control', 'reset', '--verify', '--yes'], /takes no --verify/],
     [['control', 'run', '--clear', 'some', '--yes'], /keep, exceptLatched, all/],
   ])('%j is wrong use', async (args, message) => {
     const ended = await here(...args)

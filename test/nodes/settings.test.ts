@@ -34,9 +34,17 @@ describe('migrations', () => {
     expect(currentVersion(migrations)).toBe(3)
   })
 
-  test.each(['connection', 'read', 'write', 'control'])('%s stores the version that it reads', (name) => {
+  test.each([
+    ['connection', 1],
+    ['read', 1],
+    ['write', 1],
+    // With `verify`.
+    ['control', 2],
+  ])('%s stores version %i, which it reads', (name, version) => {
     const [, stored] = /version: \{ value: (\d+) \}/.exec(readText(`nodes/melsec-jw-${name}.html`)) ?? []
-    expect(Number(stored)).toBe(currentVersion([]))
+    expect(Number(stored)).toBe(version)
+    const [, migration] = /\{ version: (\d+), up:/.exec(readText(`nodes/melsec-jw-${name}.ts`)) ?? []
+    expect(Number(migration ?? currentVersion([]))).toBe(version)
   })
 })
 

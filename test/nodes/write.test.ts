@@ -238,6 +238,34 @@ describe('control', () => {
     expect(plc.cpu.state).toBe('RUN')
   })
 
+  test('verifies what the CPU does, when it is told to', async () => {
+    const verifying = { commandType: 'command', command: 'run', clear: 'keep', version: 2, verify: true }
+    const slow = connectionTo(plc, { allowControl: true, timeout: '700' })
+    await red.deploy([slow, controlNode(verifying), catchNode()])
+    expect((await send('control', {})).payload).toEqual({ command: 'run', force: false, clear: 'keep', verified: true })
+    plc.cpu.switch = 'STOP'
+    const { error } = await caught('control', {})
+    plc.cpu.switch = 'RUN'
+    expect(error).toMatchObject({ code: 'NOT_VERIFIED', cause: { outcome: 'unknown' } })
+    expect(error.message).toContain('its RUN/STOP switch is at STOP')
+  })
+
+  test('a flow from before there was verify goes on without; the message may ask for it', async () => {
+    await red.deploy([
+      controllable(),
+      controlNode({ commandType: 'command', command: 'run', clear: 'keep', version: 1 }),
+    ])
+    plc.cpu.switch = 'STOP'
+    expect((await send('control', {})).payload).toEqual({ command: 'run', force: false, clear: 'keep' })
+    plc.cpu.switch = 'RUN'
+    await red.deploy([controllable(), controlNode()])
+    expect((await send('control', { payload: { command: 'stop', verify: true } })).payload).toEqual({
+      command: 'stop',
+      verified: true,
+    })
+    await send('control', { payload: 'run' })
+  })
+
   test.each(['run', 'stop', 'pause', 'latchClear', 'reset', 'clearError'])(
     '%s is refused while the connection does not allow it',
     async (payload) => {
@@ -254,6 +282,7 @@ describe('control', () => {
     ['an unknown command', 'explode'],
     ['nothing', undefined],
     ['a force that is no boolean', { command: 'run', force: 'yes' }],
+    ['a verify that is no boolean', { command: 'run', verify: 1 }],
     ['an unknown clear mode', { command: 'run', clear: 'everything' }],
     ['the name of something every object has', 'constructor'],
   ])('%s is refused', async (_what, payload) => {
