@@ -5,6 +5,17 @@ export type { BufferMemory } from './client/buffer-memory'
 export type { CallOptions } from './client/call'
 export type { ConnectionState } from './client/connection'
 export type { ClearMode, Control, Identity, PauseOptions, RunOptions, StopOptions } from './client/control'
+export type {
+  CopyOptions,
+  FileData,
+  FileEntry,
+  FileOptions,
+  FilePath,
+  FileProgress,
+  FileReadOptions,
+  Files,
+  FileWriteOptions,
+} from './client/files'
 export type { ItemExplanation, LabelExplanation } from './client/label-explain'
 export type {
   LabelFormat,
@@ -81,7 +92,7 @@ export {
 } from './melsec/end-code'
 export { explainFrame, formatExplanation } from './melsec/explain-frame'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
-export { type FileTime, formatFileTime, isFileTime } from './melsec/file-time'
+export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file-time'
 export { answerToJson, messageFromJson, messageToJson, type ToJsonOptions } from './melsec/message-json'
 export { modelCodes, modelOf } from './melsec/model-code'
 export {

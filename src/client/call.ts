@@ -9,6 +9,15 @@ export interface CallOptions {
   readonly signal?: AbortSignal
 }
 
+/** What this package's own calls may say beside. */
+export interface BoundOptions extends CallOptions {
+  /**
+   * Number of the connection it belongs to: it is not sent on another. What the PLC remembers of a connection, as a file
+   * pointer, may mean something else on the next.
+   */
+  readonly onlyOn?: number
+}
+
 /** A call may wait for a day, as the option `timeout` of the client. */
 const LONGEST = 24 * 60 * 60 * 1000
 
@@ -54,6 +63,8 @@ export class Call<Head> implements Job<Head> {
     settle: Settle<Head>,
     /** `false`: the call only waits for the connection. */
     readonly sends = true,
+    /** Connection it must be sent on, if on none but that. */
+    readonly onlyOn?: number,
   ) {
     this.#settle = settle
   }

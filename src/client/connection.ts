@@ -4,7 +4,7 @@ import type { ConnectionError, PlcError } from '../errors'
 import { type Exchange, type ResponseFrame, SerialNumbers } from '../link/link'
 import type { Clock } from '../transport/clock'
 import { Alarm } from './alarm'
-import { Call, type CallOptions, optionProblem, type Settle } from './call'
+import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
 import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
 import * as failure from './failure'
 import { Line, type LineOwner, takeAsDone } from './line'
@@ -75,7 +75,7 @@ export class Connection<Head> {
   }
 
   /** Sends a request when its turn comes and resolves with its answer. Every rejection is a `PlcError`. */
-  request<T>(exchange: Exchange<Head, T>, options: CallOptions = {}): Promise<T> {
+  request<T>(exchange: Exchange<Head, T>, options: BoundOptions = {}): Promise<T> {
     return this.#ask(exchange, options, (answer) => answer)
   }
 
@@ -86,7 +86,7 @@ export class Connection<Head> {
 
   #ask<T, R>(
     exchange: Exchange<Head, T>,
-    options: CallOptions,
+    options: BoundOptions,
     result: (answer: T, roundTrip: number) => R,
   ): Promise<R> {
     return new Promise<R>((resolve, fail) => {
@@ -117,7 +117,7 @@ export class Connection<Head> {
   #submit(
     exchange: Exchange<Head, unknown>,
     settle: Settle<Head>,
-    options: CallOptions,
+    options: BoundOptions,
     usual: number,
     sends: boolean,
   ): void {
@@ -126,9 +126,9 @@ export class Connection<Head> {
       settle.fail(refusal)
       return
     }
-    const { timeout = usual, signal } = options
+    const { timeout = usual, signal, onlyOn } = options
     const now = this.#clock.now()
-    const call = new Call(exchange, now + timeout, settle, sends)
+    const call = new Call(exchange, now + timeout, settle, sends, onlyOn)
     if (sends) this.#counters.add('requests')
     if (signal !== undefined) {
       call.abortedBy(
@@ -160,6 +160,10 @@ export class Connection<Head> {
   #start(call: Call<Head>): void {
     const expired = this.#expired()
     if (expired !== undefined) this.#lost(expired)
+    if (call.onlyOn !== undefined && (this.#supervisor.name !== 'connected' || call.onlyOn !== this.#generation)) {
+      call.fail(failure.otherConnection(call.exchange.title))
+      return
+    }
     if (this.#supervisor.name === 'connected' && this.#line !== undefined) {
       this.#line.submit(call)
       this.#line.flush()
@@ -273,6 +277,7 @@ export class Connection<Head> {
     const { title, answered } = call.exchange
     if (sent && !answered && failure.isSuccessOfReset(reason)) takeAsDone(call)
     else if (sent) call.fail(failure.lostInFlight(title, reason))
+    else if (call.onlyOn !== undefined) call.fail(failure.otherConnection(title, reason))
     else if (this.#supervisor.hopeful) this.#held.push(call)
     else call.fail(failure.offline(title, reason))
   }

@@ -74,6 +74,12 @@ export function lostInFlight(title: string, reason: PlcError): ConnectionError {
   return new ConnectionError('DISCONNECTED', message, 'unknown', reason)
 }
 
+/** What the PLC remembered for the request went with the connection it belongs to. */
+export function otherConnection(title: string, reason?: PlcError): ConnectionError {
+  const message = `${title} was not sent: it belongs to a connection that is gone. ${reason?.message ?? ''}`.trimEnd()
+  return new ConnectionError('DISCONNECTED', message, 'notSent', reason)
+}
+
 export function connectTimedOut(peer: string, ms: number): ConnectionError {
   const causes = ['the PLC is off or its cable is unplugged', 'wrong IP address', 'a firewall drops the packets']
   const message = `${peer} did not accept a connection within ${ms} ms. Likely: ${causes.join('; ')}`

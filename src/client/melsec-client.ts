@@ -17,6 +17,8 @@ import { Connection, type ConnectionState } from './connection'
 import { type Control, controlOf, type Identity, identify, type Send, selfTestOf } from './control'
 import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
+import { filePartsOf } from './file-calls'
+import { type Files, filesOf } from './files'
 import { checkRequest, isItem, isList, namesOf, namesOfItems } from './given'
 import { ItemAccess } from './item-access'
 import type { ItemExplanation } from './label-explain'
@@ -81,6 +83,8 @@ export class MelsecClient {
   readonly labels: Labels
   /** Buffer memory of the connected module itself: Memory (0613, 1613). */
   readonly memory: BufferMemory
+  /** Files on the drives of the CPU. Everything but reading needs `allowWrites`. */
+  readonly files: Files
 
   constructor(given: MelsecClientOptions) {
     const settings = settle(given)
@@ -138,6 +142,15 @@ export class MelsecClient {
       permit: (effect, title) => this.#permit(effect, title),
     })
     this.memory = memoryOf(this.#send, settings.route)
+    this.files = filesOf(
+      filePartsOf({
+        settings,
+        options,
+        protocol: this.#protocol,
+        connection: this.#connection,
+        permit: (effect, title) => this.#permit(effect, title),
+      }),
+    )
   }
 
   /** The family of PLCs it speaks to, with the overrides merged in. */

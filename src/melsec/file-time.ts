@@ -67,6 +67,25 @@ export function formatFileTime({ year, month, day, hour, minute, second }: FileT
   return `${year}-${two(month)}-${two(day)} ${two(hour)}:${two(minute)}:${two(second)}`
 }
 
+/**
+ * A `Date` in the time zone of this computer, with the second even, rounded down: files keep steps of 2 seconds.
+ * @throws RequestError OUT_OF_RANGE before 1980 and after 2107
+ * @example await plc.files.setDate('4:/LINE.CSV', fileTimeOf(new Date()))
+ */
+export function fileTimeOf(date: Date): FileTime {
+  const time = {
+    year: date.getFullYear(),
+    month: date.getMonth() + 1,
+    day: date.getDate(),
+    hour: date.getHours(),
+    minute: date.getMinutes(),
+    second: 2 * Math.floor(date.getSeconds() / 2),
+  }
+  const problem = problemOf(time)
+  if (problem === undefined) return time
+  throw new RequestError('OUT_OF_RANGE', `${problem.field} ${problem.message}.`, problem.field)
+}
+
 /** The words: date bits 15-9 year since 1980, 8-5 month, 4-0 day; time bits 15-11 hour, 10-5 minute, 4-0 second / 2. */
 function packed(time: FileTime): { readonly date: number; readonly time: number } {
   if (typeof time !== 'object' || time === null) {

@@ -1,0 +1,47 @@
+// How the requests of a file transfer are sent: one after another, each with its own deadline.
+import type { Exchange } from '../link/link'
+import type { Head3e } from '../melsec/frame-3e'
+import type { ClientProtocol } from '../melsec/protocol'
+import type { CallOptions } from './call'
+import type { Connection } from './connection'
+import { Deadline } from './deadline'
+import type { FileParts } from './files'
+import type { MelsecClientOptions, Settings } from './options'
+
+/** What the client lends. */
+interface Lent {
+  readonly settings: Settings
+  readonly options: Pick<MelsecClientOptions, 'localPort'>
+  readonly protocol: ClientProtocol<Head3e>
+  readonly connection: Connection<Head3e>
+  /** @throws RequestError NOT_PERMITTED */
+  readonly permit: (effect: Exchange<Head3e, unknown>['effect'], title: string) => void
+}
+
+export function filePartsOf({ settings, options, protocol, connection, permit }: Lent): FileParts {
+  return {
+    profile: settings.profile,
+    unusable: unusable(settings, options.localPort),
+    permitWrite: (title) => permit('write', title),
+    calls: (call: CallOptions) => ({
+      connection: () => connection.generation,
+      send: async (command, message, { onlyOn, unaborted } = {}) => {
+        permit(command.effect, command.title)
+        const exchange = protocol.exchange(command, message)
+        const { signal: _, ...rest } = call
+        const deadline = new Deadline(settings.clock, unaborted === true ? rest : call, settings.timeout)
+        const bound = onlyOn === undefined ? {} : { onlyOn }
+        return connection.request(exchange, { ...deadline.options(command.title), ...bound })
+      },
+    }),
+  }
+}
+
+/** The PLC locks an open file for the external device that opened it. */
+function unusable({ transport, frame }: Settings, localPort: number | undefined): string | undefined {
+  if (transport !== 'udp' || frame !== '3E' || localPort !== undefined) return undefined
+  return (
+    'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the file open again. ' +
+    'Use TCP, the 4E frame, or a fixed localPort.'
+  )
+}

@@ -1,0 +1,125 @@
+// A file while it is open in the PLC: it is locked there until it is closed, so it is closed whatever happens.
+import { ProtocolError, RequestError } from '../errors'
+import type { Command, RequestOf, ResponseOf } from '../melsec/command'
+import { commands } from '../melsec/commands/commands'
+import type { FilePlace } from './file-place'
+
+type FileCommand = Command<(typeof commands)[keyof typeof commands], string>
+
+export interface FileSend {
+  /** Number of the connection it belongs to. */
+  readonly onlyOn?: number
+  /** Sent although the call was aborted. */
+  readonly unaborted?: true
+}
+
+/** How one call sends its requests. */
+export interface FileCalls {
+  send<C extends FileCommand>(command: C, message: RequestOf<C>, options?: FileSend): Promise<ResponseOf<C>>
+  /** Number of the connection that is up. */
+  connection(): number
+}
+
+/** Bytes of one request (SLMP reference manual 5.8, Read File and Write File). Offsets are multiples of it: even, and of 4. */
+export const FILE_CHUNK = 1920
+
+const MODES = { read: 0x0000, write: 0x0100 } as const
+
+/** Runs `use` with the file open, and closes it. The first error counts; one of closing is told with it. */
+export async function withOpenFile<T>(
+  calls: FileCalls,
+  place: FilePlace,
+  mode: keyof typeof MODES,
+  password: string,
+  use: (file: OpenFile) => Promise<T>,
+): Promise<T> {
+  const file = await OpenFile.open(calls, place, mode, password)
+  let result: T
+  try {
+    result = await use(file)
+  } catch (error) {
+    await alsoAfter(error, notClosed(place), () => file.close())
+    throw error
+  }
+  await file.close()
+  return result
+}
+
+/** What is wrong when closing fails. */
+export function notClosed(place: FilePlace): string {
+  return `${place.text} could not be closed, and may be locked in the PLC until closeAll() or its restart`
+}
+
+/** Does what must follow an error; when that fails too, the error says so. */
+export async function alsoAfter(error: unknown, what: string, run: () => Promise<void>): Promise<void> {
+  try {
+    await run()
+  } catch (second) {
+    if (!(error instanceof Error && second instanceof Error)) throw second
+    error.message = `${error.message} ${what}: ${second.message}`
+  }
+}
+
+export class OpenFile {
+  readonly #calls: FileCalls
+  readonly #place: FilePlace
+  readonly #pointer: number
+  /** The pointer means this file on this connection only. */
+  readonly #connection: number
+
+  private constructor(calls: FileCalls, place: FilePlace, pointer: number) {
+    this.#calls = calls
+    this.#place = place
+    this.#pointer = pointer
+    this.#connection = calls.connection()
+  }
+
+  static async open(calls: FileCalls, place: FilePlace, mode: keyof typeof MODES, password: string): Promise<OpenFile> {
+    const { drive, path: name } = place
+    const { pointer } = await calls.send(commands.openFile, { password, mode: MODES[mode], drive, name })
+    return new OpenFile(calls, place, pointer)
+  }
+
+  /** All of it, in chunks of at most 1920 bytes. @throws ProtocolError when the PLC sends less than its size */
+  async *chunks(size: number): AsyncGenerator<Buffer> {
+    for (let offset = 0; offset < size; offset += FILE_CHUNK) {
+      const byteCount = Math.min(FILE_CHUNK, size - offset)
+      const { data } = await this.#send(commands.readFile, { pointer: this.#pointer, offset, byteCount })
+      if (data.length !== byteCount) {
+        const found = `${data.length} bytes at ${offset} of ${this.#place.text}, not ${byteCount}`
+        throw new ProtocolError('BAD_FIELD', `The PLC sent ${found}: the file is not what its directory says.`)
+      }
+      yield Buffer.from(data)
+    }
+  }
+
+  /** Writes bytes at an offset; every offset but the last chunk's end is a multiple of 1920. */
+  async write(offset: number, data: Uint8Array): Promise<void> {
+    const { written } = await this.#send(commands.writeFile, { pointer: this.#pointer, offset, data })
+    if (written === data.length) return
+    const found = `${written} of ${data.length} bytes at ${offset} of ${this.#place.text}`
+    throw new ProtocolError('BAD_FIELD', `The PLC says that it wrote ${found}.`)
+  }
+
+  /** Not aborted with the rest: an aborted transfer must not leave the file locked. */
+  async close(): Promise<void> {
+    await this.#send(commands.closeFile, { pointer: this.#pointer }, { unaborted: true })
+  }
+
+  #send<C extends FileCommand>(command: C, message: RequestOf<C>, options: FileSend = {}): Promise<ResponseOf<C>> {
+    return this.#calls.send(command, message, { ...options, onlyOn: this.#connection })
+  }
+}
+
+/** Cuts what is to be written into chunks of 1920 bytes. @throws RequestError BAD_VALUE for what is no bytes */
+export async function* chunksOf(source: Iterable<Uint8Array> | AsyncIterable<Uint8Array>): AsyncGenerator<Buffer> {
+  let rest: Buffer = Buffer.alloc(0)
+  for await (const part of source) {
+    if (!(part instanceof Uint8Array)) {
+      throw new RequestError('BAD_VALUE', 'What is written to a file is bytes: Buffers or Uint8Arrays.', 'data')
+    }
+    rest = Buffer.concat([rest, part])
+    for (; rest.length >= FILE_CHUNK; rest = rest.subarray(FILE_CHUNK)) yield rest.subarray(0, FILE_CHUNK)
+  }
+  if (rest.length > 0) yield rest
+}
