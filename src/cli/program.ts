@@ -1,6 +1,8 @@
 // The program with its commands: `melsec-jw`.
 import { Command, CommanderError } from 'commander'
+import { memoryCommand, moduleCommand } from './buffer-memory'
 import type { MakeCommand, Run } from './command'
+import { commandsCommand } from './commands'
 import { controlCommand } from './control'
 import { decodeCommand } from './decode'
 import { exitCodeHelp, exitCodes } from './exit-code'
@@ -9,6 +11,7 @@ import { identifyCommand } from './identify'
 import { listenCommand } from './listen'
 import { profilesCommand } from './profiles'
 import { readCommand } from './read'
+import { requestCommand } from './request'
 import { simulateCommand } from './simulate'
 import type { Terminal } from './terminal'
 import { writeCommand } from './write'
@@ -18,6 +21,10 @@ const COMMANDS: readonly MakeCommand[] = [
   readCommand,
   writeCommand,
   controlCommand,
+  requestCommand,
+  commandsCommand,
+  memoryCommand,
+  moduleCommand,
   listenCommand,
   simulateCommand,
   decodeCommand,

@@ -3,6 +3,7 @@ import {
   createPlcSimulator,
   demoPlantTags,
   type Endpoint,
+  type ExtensionMemory,
   type FrameName,
   type PlcSimulator,
   type PlcSimulatorOptions,
@@ -17,6 +18,7 @@ import { exitCodes } from './exit-code'
 import { faultHelp, faultOf } from './fault-option'
 import { interruption } from './interruption'
 import { labelsOf } from './label-option'
+import { moduleOf } from './module-option'
 import { onDemandWords, sendAgainAndAgain, takeLines } from './on-demand'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
@@ -51,6 +53,8 @@ interface SimulateOptions {
   readonly onDemand?: readonly number[]
   readonly onDemandEvery: number
   readonly interactive?: boolean
+  readonly module: NonNullable<ExtensionMemory['modules']>
+  readonly bufferMemory?: number
   readonly label: readonly string[]
   readonly labels?: string
   readonly password?: boolean
@@ -87,6 +91,16 @@ export const simulateCommand: MakeCommand = (run) => {
     .addOption(new Option('--scan-time <ms>', 'time from a request to its answer in RUN').argParser(whole(0, 60_000)))
     .addOption(new Option('--max-connections <number>', 'connection entries').argParser(whole(1, 1000)))
     .option('--reset-allowed', 'CPU parameter "Remote Reset"')
+    .addOption(
+      new Option('--module <model@start I/O>', 'module with buffer memory, e.g. Q62DA@0030; may be repeated')
+        .default([], 'none')
+        .argParser((text, before: SimulateOptions['module']) => [...before, moduleOf(text)]),
+    )
+    .addOption(
+      new Option('--buffer-memory <words>', 'buffer memory of the port itself, for Memory').argParser(
+        whole(0, 0x1000000),
+      ),
+    )
     .addOption(
       new Option('--label <name:type=value>', 'global label, e.g. Line1.Speed:REAL=12.5; may be repeated')
         .default([], 'none')
@@ -151,6 +165,8 @@ function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
     resetAllowed,
     passwordAttempts,
     lockOutTime,
+    module: modules,
+    bufferMemory,
   } = options
   return {
     profile,
@@ -166,6 +182,8 @@ function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
     ...(resetAllowed === undefined ? {} : { resetAllowed }),
     ...(passwordAttempts === undefined ? {} : { passwordAttempts }),
     ...(lockOutTime === undefined ? {} : { lockOutTime }),
+    ...(modules.length === 0 ? {} : { extensions: { modules } }),
+    ...(bufferMemory === undefined ? {} : { bufferMemory }),
   }
 }
 

@@ -10,8 +10,9 @@ export interface Answered extends Ended {
 /**
  * Runs `melsec-jw` in this process.
  * @param answer what somebody types who is asked; `undefined`: nobody is there
+ * @param input the standard input
  */
-export async function runHere(args: readonly string[], answer?: string): Promise<Answered> {
+export async function runHere(args: readonly string[], answer?: string, input = ''): Promise<Answered> {
   const questions: string[] = []
   let out = ''
   let err = ''
@@ -27,7 +28,7 @@ export async function runHere(args: readonly string[], answer?: string): Promise
       questions.push(question)
       return answer ?? ''
     },
-    input: async () => '',
+    input: async () => input,
   }
   const code = await runProgram(args, '1.2.3', terminal)
   return { code, out, err, questions }

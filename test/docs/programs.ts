@@ -15,7 +15,13 @@ export class Bench {
   readonly #simulators = new Map<plc.PlcSimulator, number | undefined>()
 
   async open(): Promise<void> {
-    const simulator = plc.createPlcSimulator({ profile: 'iq-r', resetAllowed: true })
+    const simulator = plc.createPlcSimulator({
+      profile: 'iq-r',
+      resetAllowed: true,
+      bufferMemory: 0x4000,
+      extensions: { modules: [{ unit: 3, points: 0x1000, model: 'Q62DA' }] },
+      labels: { 'Line1.Speed': { type: 'REAL' }, 'Line1.Values': { type: 'INT', dimensions: [10] } },
+    })
     await simulator.listen()
     fill(simulator)
     this.#simulators.set(simulator, READERS_PORT)
