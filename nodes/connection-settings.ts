@@ -25,6 +25,8 @@ export interface ConnectionSettings {
   readonly asciiXy: string
   /** Digits of ZR in ASCII code: `decimal`, `hexadecimal` or `''`. */
   readonly asciiZr: string
+  /** Labels in ASCII code: `low-first`, `high-first` or `''`. */
+  readonly asciiWordOrder: string
   /** Numbering of X and Y in addresses: `8`, `16` or `''`. */
   readonly xyRadix: string
   readonly network: string
@@ -58,6 +60,7 @@ const TEXT_FIELDS = [
   'code',
   'asciiXy',
   'asciiZr',
+  'asciiWordOrder',
   'xyRadix',
   'network',
   'station',
@@ -144,6 +147,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       code: choice(settings, 'code', ['binary', 'ascii'], texts),
       asciiXy: choice(settings, 'asciiXy', ['octal', 'hexadecimal'], texts),
       asciiZr: choice(settings, 'asciiZr', ['decimal', 'hexadecimal'], texts),
+      asciiWordOrder: choice(settings, 'asciiWordOrder', ['low-first', 'high-first'], texts),
       xyRadix: xyRadixOf(settings, texts),
       monitoringTimer: number('monitoringTimer'),
       timeout: number('timeout'),

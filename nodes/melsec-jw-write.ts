@@ -33,16 +33,23 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
 }
 
 async function check(client: MelsecClient, entries: readonly NamedEntry[], { texts }: Tools): Promise<void> {
-  const items = entries.map(({ item }) => item)
-  const results = await client.read(items)
+  const results = await client.read(entries.map((entry) => readBackItem(client, entry)))
   // Of a label the PLC says the type.
-  const types = results.map((result, index) => (result.ok && result.type) || typeOf(client, items[index]))
+  const types = results.map((result, index) => (result.ok && result.type) || typeOf(client, entries[index]))
   const failure = readBackFailure(entries, results, types, texts)
   if (failure !== undefined) throw failure
 }
 
-function typeOf(client: MelsecClient, item: Item | undefined): string {
-  return item === undefined ? '' : (client.explain(item).type ?? '')
+/** A list that was written to a label says itself how many elements it has; reading must be told. */
+function readBackItem(client: MelsecClient, { item, value }: NamedEntry): Item {
+  const explanation = client.explain(item)
+  if (!('label' in explanation) || !Array.isArray(value) || explanation.count !== undefined) return item
+  const given = typeof item === 'string' ? { address: item } : item
+  return { ...given, count: value.length }
+}
+
+function typeOf(client: MelsecClient, entry: NamedEntry | undefined): string {
+  return entry === undefined ? '' : (client.explain(entry.item).type ?? '')
 }
 
 type EntrySource = (message: Parameters<Work>[0]) => Promise<NamedEntry[]>

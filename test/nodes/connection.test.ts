@@ -355,6 +355,25 @@ describe('the address check of the editor', () => {
     expect(overridden.results).toMatchObject([{ ok: true, radix: 16 }])
   })
 
+  test('takes labels where the series has them, and says what to write for one that looks like a device', async () => {
+    const items = ['Line1.Speed', 'Line1.Values[0]:INT[10]', 'label:DD100', 'DD100'].map((address) => ({
+      address,
+      type: '',
+    }))
+    const typed = { address: 'Line1.Speed', type: 'REAL' }
+    const { results } = (await check({ profile: 'iq-r' }, [...items, typed])).body
+    expect(results).toMatchObject([
+      { ok: true, label: 'Line1.Speed' },
+      { ok: true, label: 'Line1.Values[0]', type: 'INT', count: 10 },
+      { ok: true, label: 'DD100' },
+      { ok: false, message: expect.stringContaining('label:DD100') },
+      { ok: true, label: 'Line1.Speed', type: 'REAL' },
+    ])
+    const other = (await check({ profile: 'iq-f' }, items)).body.results
+    expect(other?.map(({ ok }) => ok)).toEqual([false, false, false, false])
+    expect(other?.[0]).toMatchObject({ message: expect.stringContaining('iQ-R only') })
+  })
+
   test.each([
     ['no items', {}],
     ['rubbish', { items: 5 }],

@@ -14,7 +14,14 @@ let red: NodeRed
 let plc: PlcSimulator
 
 beforeAll(async () => {
-  plc = await startPlc()
+  // What `--label` of the expectations' `simulate` makes.
+  plc = await startPlc({
+    labels: {
+      'Line1.Speed': { type: 'REAL', value: 12.5 },
+      'Line1.Ready': { type: 'BOOL', value: true },
+      'Line1.Counts': { type: 'INT', dimensions: [5], value: [1, 2, 3] },
+    },
+  })
   startDemoPlant(plc)
   red = await startNodeRed()
 }, 60_000)
