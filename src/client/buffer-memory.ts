@@ -2,7 +2,7 @@
 import { RequestError } from '../errors'
 import { commands } from '../melsec/commands/commands'
 import { byteAddressOf, type ExtendUnit } from '../melsec/extend-unit'
-import { ownStation, type Route } from '../melsec/route'
+import { isConnectedStation, type Route } from '../melsec/route'
 import type { CallOptions } from './call'
 import type { Send } from './control'
 
@@ -48,7 +48,7 @@ export function moduleOf(send: Send, unit: ExtendUnit): BufferMemory {
 
 /** SLMP reference manual 5.4: other stations cannot be given. */
 function checkOwn(route: Route): void {
-  if (route.network === ownStation.network && route.station === ownStation.station) return
+  if (isConnectedStation(route)) return
   throw new RequestError(
     'UNSUPPORTED',
     'Memory reaches the connected station only: make a client without route for it.',

@@ -1,7 +1,9 @@
 // Why a PLC that can be reached says nothing: ranked causes, most likely first. A PLC never says which it is; these
 // are the settings that make one silent (FX5 communication manual: wrong data code "no response"; needs of the field).
 import type { DataCode } from '../codec/codec'
+import { frameFacts } from '../melsec/frames'
 import type { FrameName, TransportName } from '../melsec/profile'
+import { isConnectedStation, type RouteToStation, stationText } from '../melsec/route'
 import type { Silence } from './connection'
 
 export interface LinkSettings {
@@ -11,13 +13,18 @@ export interface LinkSettings {
   /** Frames of the family, when it is known: another one is not proposed. */
   readonly frames?: readonly FrameName[]
   readonly code: DataCode
-  readonly route: { readonly network: number; readonly station: number }
+  readonly route: RouteToStation
   /** Local port, when the user fixed it. */
   readonly localPort?: number | undefined
 }
 
 const OTHER_CODE = { binary: 'ASCII', ascii: 'binary' } as const
-const OTHER_FRAME = { '3E': '4E', '4E': '3E', '1E': '3E' } as const
+const OTHER_FRAME = { '3E': '4E', '4E': '3E', ext: '4E', '1E': '3E' } as const
+/** Who knows the frame, where not every PLC does. */
+const KNOWN_TO: Readonly<Partial<Record<FrameName, string>>> = {
+  '4E': ' (iQ-F and older E71 modules have 3E only)',
+  ext: ' (only an RJ71GN11-T2 knows and relays it)',
+}
 
 /** Ranked causes of a silence, as sentences that say what to check. */
 export function explainSilence(settings: LinkSettings, silence: Silence): readonly string[] {
@@ -31,9 +38,9 @@ function fromTheStart(settings: LinkSettings): readonly string[] {
     `UDP: the PLC sends its answer to the peer that is registered in its open settings; register this computer's address${localPort === undefined ? ' and set a fixed local port here' : ` and port ${localPort}`}, ` +
     'or choose an entry that answers anybody. A firewall on the way has the same effect.'
   const otherPort = `Port ${port} is open for something else (MELSOFT, socket, Modbus): use the port of an SLMP (MC protocol) entry.`
-  const otherFrame = `The PLC does not know the ${frame} frame: try ${OTHER_FRAME[frame]}${frame === '4E' ? ' (iQ-F and older E71 modules have 3E only)' : ''}.`
-  const elsewhere = `Network ${route.network}, station ${route.station} does not answer: check the route, or leave it at the own station.`
-  const routed = route.network !== 0 || route.station !== 0xff
+  const otherFrame = `The PLC does not know the ${frameFacts[frame].title} frame: try ${OTHER_FRAME[frame]}${KNOWN_TO[frame] ?? ''}.`
+  const elsewhere = `Network ${route.network}, ${stationText(route).toLowerCase()} does not answer: check the route, or leave it at the own station.`
+  const routed = !isConnectedStation(route)
   const frameCauses = frames?.includes(OTHER_FRAME[frame]) === false ? [] : [otherFrame]
   const common = [dataCode, otherPort, ...frameCauses, 'The PLC is busy or the line slow: raise the timeout.']
   const ranked = transport === 'udp' ? [peer, ...common] : common

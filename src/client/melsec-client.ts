@@ -116,7 +116,7 @@ export class MelsecClient {
           silence,
         ),
       onState: (state) => this.#changed(state),
-      onUnsolicited: (frame) => this.#cameUnasked(unsolicitedOf(frame, settings.code, settings.clock.time())),
+      onUnsolicited: (frame) => this.#cameUnasked(unsolicitedOf(frame, settings, settings.clock.time())),
     })
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = (command, message, call) => this.request(command, message, call)

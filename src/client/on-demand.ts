@@ -1,7 +1,7 @@
 // What a PLC sends unasked: On-demand, and whatever else comes in the form of a request.
-import type { DataCode } from '../codec/codec'
 import { ProtocolError, RequestError } from '../errors'
 import type { RequestFrame } from '../link/link'
+import { bodies } from '../melsec/body'
 import { wordsOfBytes } from '../melsec/commands/on-demand'
 import type { Head3e } from '../melsec/frame-3e'
 import { readOnDemand } from '../melsec/on-demand'
@@ -15,12 +15,18 @@ export interface Unsolicited {
 }
 
 /** @param timestamp milliseconds since 1970 */
-export function unsolicitedOf({ head, body }: RequestFrame<Head3e>, code: DataCode, timestamp: number): Unsolicited {
+export function unsolicitedOf(
+  { head, body }: RequestFrame<Head3e>,
+  { frame: name, code }: Pick<Settings, 'frame' | 'code'>,
+  timestamp: number,
+): Unsolicited {
   const { route } = head
   // A copy: the bytes of the chunk are somebody else's as soon as this returns.
   const frame: UnsolicitedFrame = { route, body: Buffer.from(body), timestamp }
   try {
-    const data = Buffer.from(readOnDemand(code, body))
+    // A 1E frame never comes unasked.
+    const { reserved } = bodies[name === '1E' ? '3E' : name]
+    const data = Buffer.from(readOnDemand(code, body, reserved))
     return { frame, onDemand: { route, data, words: wordsOfBytes(data), timestamp } }
   } catch (error) {
     if (!(error instanceof ProtocolError)) throw error

@@ -1,6 +1,7 @@
 // The options of a MELSEC client: defaults and checks. Everything is checked here, before a connection is tried.
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
+import { frameFacts } from '../melsec/frames'
 import {
   type FrameName,
   inFlightBound,
@@ -11,7 +12,7 @@ import {
   resolveProfile,
   type TransportName,
 } from '../melsec/profile'
-import { completeRoute, ownStation, type Route } from '../melsec/route'
+import { checkRouteOf, completeRoute, isConnectedStation, ownStation, type Route } from '../melsec/route'
 import { type Clock, realClock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
 import { checkFormat, type ValueFormat } from '../value/value'
@@ -48,7 +49,7 @@ export interface MelsecClientOptions {
    */
   readonly asciiWordOrder?: 'low-first' | 'high-first'
   readonly xyRadix?: 8 | 16
-  /** Station to speak to; default: the connected station. */
+  /** Station to speak to; default: the connected station. Stations above 120 need frame `ext`. */
   readonly route?: Partial<Route>
   /** Time the PLC gives the request, a multiple of 250 up to 16383750; 0 = for ever. Default: the profile's. */
   readonly monitoringTimer?: number
@@ -177,8 +178,8 @@ export function settle(options: MelsecClientOptions): Settings {
     transport,
     profile,
     frame,
-    code: oneOf('code', options.code ?? profile.code, ['binary', 'ascii']),
-    route: reachable(profile, completeRoute(options.route)),
+    code: codeOf(frame, options.code ?? profile.code),
+    route: reachable(profile, routeOf(frame, options.route)),
     timer: timerOf(profile, options.monitoringTimer),
     xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
     xyUnknown: profile.id === 'generic' && (options.xyRadix ?? options.profileOverrides?.xyRadix) === undefined,
@@ -249,7 +250,7 @@ function checkPasswordPort(
   transport: TransportName,
   frame: FrameName,
 ): void {
-  if (password === undefined || transport === 'tcp' || frame === '4E') return
+  if (password === undefined || transport === 'tcp' || frameFacts[frame].serial) return
   if (localPort !== undefined || openTransport !== undefined) return
   const message =
     'A remote password over UDP needs localPort with the 3E frame: the PLC unlocks one peer, and without it every request ' +
@@ -265,6 +266,23 @@ function frameOf(profile: Profile, frame: FrameName | undefined): FrameName {
     `${profile.title} has no ${shown(chosen)} frame: use ${profile.frames.join(' or ')}.`,
     'frame',
   )
+}
+
+function codeOf(frame: FrameName, given: DataCode): DataCode {
+  const code = oneOf('code', given, ['binary', 'ascii'])
+  const { title, codes } = frameFacts[frame]
+  if (codes.includes(code)) return code
+  throw new RequestError(
+    'BAD_OPTION',
+    `The ${title} frame exists in ${codes.join(' and ')} code only: set code to ${codes[0]}, or choose another frame.`,
+    'code',
+  )
+}
+
+function routeOf(frame: FrameName, given: Partial<Route> | undefined): Route {
+  const route = completeRoute(given)
+  checkRouteOf(frame, route)
+  return route
 }
 
 function timerOf(profile: Profile, given: number | undefined): number {
@@ -284,8 +302,8 @@ function timerOf(profile: Profile, given: number | undefined): number {
 
 /** Ports that reach nothing else would refuse every request, or carry it out on the connected station. */
 function reachable({ title, reach }: Profile, route: Route): Route {
-  const { network, station, moduleIo, multidrop } = route
-  const own = network === ownStation.network && station === ownStation.station && multidrop === ownStation.multidrop
+  const { moduleIo, multidrop } = route
+  const own = isConnectedStation(route) && multidrop === ownStation.multidrop
   const moduleTaken = !reach.ownModuleIoOnly || reach.ownModuleIo.includes(moduleIo)
   if (reach.stations === 'networks' || (own && moduleTaken)) return route
   const message = `${title} reaches the connected station only: leave route out (${reach.source}).`

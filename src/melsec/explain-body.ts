@@ -2,11 +2,11 @@
 import { type AnnotatedRow, type Annotation, annotate, hasSecret, hex, type Leaf } from '../codec/annotate'
 import type { Context, DataCode, Shape } from '../codec/codec'
 import type { Explainer } from '../codec/explanation'
+import { type BodyLayout, commandFields, plainBody } from './body'
 import type { Command } from './command'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf as usedDevices } from './device-uses'
-import { errorInformation } from './error-information'
-import { commandFields, commandText, describeHead, subcommandText } from './explain-head'
+import { commandText, describeHead, subcommandText } from './explain-head'
 import { describeValue, devicesOf, type Placed, splitRow, summaryOf, type WordsFor } from './explain-values'
 import { codecBits, findCommand } from './form'
 import type { DeviceForm, Profile } from './profile'
@@ -20,6 +20,8 @@ export interface Settings extends WordsFor {
   readonly asciiXy: 'octal' | 'hexadecimal' | undefined
   readonly asciiZr: 'decimal' | 'hexadecimal' | undefined
   readonly commands: Readonly<Record<string, Command>>
+  /** What stands around the data; default as in 3E and 4E. */
+  readonly body?: BodyLayout
 }
 
 /** A request as far as its answer needs it. */
@@ -52,12 +54,16 @@ function digitBits({ code, profile, asciiXy, asciiZr }: Settings): number {
 /** The body of a request read without words, for the answer to it; `undefined` when it is none. */
 export function readRequestBody(body: Buffer, settings: Settings): KnownRequest | undefined {
   const { code } = settings
-  const head = annotate(commandFields, body, { code })
+  const head = annotate({ ...commandFields, ...reservedOf(settings) }, body, { code })
   const found = recognise(settings, Number(head.message.command), Number(head.message.subcommand))
   if (head.fault !== undefined || found === undefined) return undefined
   const form = codecBits(found.command, found.form, found.subcommand) | digitBits(settings)
   const data: Annotation = annotate(found.command.request, body.subarray(head.used), { code, form })
   return data.fault === undefined ? { command: found.command, form, message: data.message } : undefined
+}
+
+function reservedOf({ body = plainBody }: Settings): Shape {
+  return body.reserved
 }
 
 /** What a body turned out to be. */
@@ -71,17 +77,31 @@ export interface ExplainedBody {
 
 /** Reads command, subcommand and data of a request. */
 export function explainRequestBody(explainer: Explainer, settings: Settings): ExplainedBody {
-  let found: Recognised | undefined
   const start = explainer.position
+  const { found, code, subcommand } = readCommand(explainer, settings)
+  if (explainer.fault !== undefined) return { command: undefined, title: 'cut short', secret: false }
+  if (found === undefined) return explainUnknown(explainer, start, code, subcommand)
+  return explainKnown(explainer, settings, found)
+}
+
+/** Command, subcommand and fixed values, as they stand in requests and where answers repeat them. */
+function readCommand(
+  explainer: Explainer,
+  settings: Settings,
+): { readonly found: Recognised | undefined; readonly code: number; readonly subcommand: number } {
+  let found: Recognised | undefined
   const { command: code, subcommand } = annotate(commandFields, explainer.ahead(), { code: settings.code }).message
   if (typeof code === 'number' && typeof subcommand === 'number') found = recognise(settings, code, subcommand)
-  explainer.read(commandFields, ({ name, value }) => {
-    if (name === 'command') return commandText(Number(value), found?.command ?? named(settings, value))
-    return subcommandText(Number(value), found?.command.unit)
-  })
-  if (explainer.fault !== undefined) return { command: undefined, title: 'cut short', secret: false }
-  if (found === undefined) return explainUnknown(explainer, start, Number(code), Number(subcommand))
-  return explainKnown(explainer, settings, found)
+  explainer.read({ ...commandFields, ...reservedOf(settings) }, commandWords(settings, found?.command))
+  return { found, code: Number(code), subcommand: Number(subcommand) }
+}
+
+/** Command and subcommand in words, and what stands beside them. */
+function commandWords(settings: Settings, command: Command | undefined): (leaf: Leaf) => string | undefined {
+  return (leaf) => {
+    if (leaf.name === 'command') return commandText(Number(leaf.value), command ?? named(settings, leaf.value))
+    return leaf.name === 'subcommand' ? subcommandText(Number(leaf.value), command?.unit) : describeHead(leaf)
+  }
 }
 
 function explainUnknown(explainer: Explainer, start: number, code: number, subcommand: number): ExplainedBody {
@@ -115,9 +135,13 @@ export function explainResponseBody(
   request: KnownRequest | undefined,
   registration: KnownRequest | undefined,
 ): ExplainedBody {
-  if (request === undefined) {
-    explainRaw(explainer, settings)
-    return { command: undefined, title: '', secret: false }
+  const echoed = settings.body?.echoed === true ? readCommand(explainer, settings) : undefined
+  const isOther = echoed !== undefined && request !== undefined && echoed.code !== request.command.code
+  if (isOther) explainer.notes.push(OTHER_COMMAND)
+  if (request === undefined || isOther) {
+    explainRaw(explainer, settings, isOther)
+    const command = echoed?.found?.command
+    return { command, title: command?.title ?? '', secret: false }
   }
   const { command, form } = request
   const context = contextOf(settings, request, registration)
@@ -175,14 +199,15 @@ function explainRaw(explainer: Explainer, settings: Settings, noted = false): vo
   else explainer.take(explainer.remaining, { name: 'data', kind: 'bytes', text: 'no whole number of words' })
 }
 
+/** An answer that is not the given request's. */
+export const OTHER_COMMAND = 'The answer is about another command than the request that was given.'
+
 /** Reads what stands behind an end code: which station refused which command. */
 export function explainErrorInformation(explainer: Explainer, settings: Settings): Bag {
+  const { errorInformation } = settings.body ?? plainBody
   const { command, subcommand } = annotate(errorInformation, explainer.ahead(), { code: settings.code }).message
   const found = recognise(settings, Number(command), Number(subcommand))?.command
-  return explainer.read(errorInformation, (leaf) => {
-    if (leaf.name === 'command') return commandText(Number(leaf.value), found ?? named(settings, leaf.value))
-    return leaf.name === 'subcommand' ? subcommandText(Number(leaf.value), found?.unit) : describeHead(leaf)
-  })
+  return explainer.read(errorInformation, commandWords(settings, found))
 }
 
 /** A command of this number, whatever its subcommand. */

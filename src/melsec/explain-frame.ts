@@ -1,7 +1,8 @@
 // A captured frame in words, field by field: for the command line, for traces, for people with a protocol analyser.
 import { MASK } from '../codec/annotate'
-import { type DataCode, field, type Shape } from '../codec/codec'
+import { type DataCode, field, measure, type Shape } from '../codec/codec'
 import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../codec/explanation'
+import { bodies } from './body'
 import type { Command } from './command'
 import { knownCommands } from './commands/known'
 import { explain1e } from './explain-1e'
@@ -11,11 +12,13 @@ import {
   explainRequestBody,
   explainResponseBody,
   type KnownRequest,
+  OTHER_COMMAND,
   readRequestBody,
   type Settings,
 } from './explain-body'
 import { describeHead, endCodeText } from './explain-head'
 import { frame3e } from './frame-3e'
+import { type FrameName, frameFacts, type SlmpFrameName } from './frames'
 import { type Profile, type ProfileId, resolveProfile } from './profile'
 import { ownStation } from './route'
 
@@ -24,8 +27,8 @@ export { type Direction, type FrameExplanation, formatExplanation } from '../cod
 
 /** What is known of the frame; what is left out is found out as far as the bytes tell it. */
 export interface ExplainFrameOptions {
-  /** `4C`: format 5. 1E and 4C must be said; 3E and 4E are told by their subheaders. */
-  readonly frame?: '3E' | '4E' | '1E' | '4C'
+  /** `4C`: format 5. 1E and 4C must be said; 3E, 4E and the station extension frame are told by their subheaders. */
+  readonly frame?: FrameName | '4C'
   readonly code?: DataCode
   readonly direction?: Direction
   /** Family of the PLC; default `generic`. */
@@ -72,15 +75,15 @@ export type Known = Omit<Settings, 'code'>
 // --- which frame it is
 
 interface Subheader {
-  readonly frame: '3E' | '4E'
+  readonly frame: SlmpFrameName
   readonly code: DataCode
   readonly direction: Direction
   /** What the frame begins with: written by the framing itself. */
   readonly bytes: Buffer
 }
 
-const SUBHEADERS: readonly Subheader[] = (['3E', '4E'] as const).flatMap((frame) =>
-  (['binary', 'ascii'] as const).flatMap((code) => {
+const SUBHEADERS: readonly Subheader[] = (['3E', '4E', 'ext'] as const).flatMap((frame) =>
+  frameFacts[frame].codes.flatMap((code) => {
     const { request, response } = frame3e(frame, code)
     const head = { route: ownStation, timer: 0 }
     const size = code === 'ascii' ? 4 : 2
@@ -110,11 +113,11 @@ function detect(bytes: Buffer, { frame, code, direction }: ExplainFrameOptions):
   if (fitting.length > 1) return `${bytes.length} byte(s) are too few to tell the frame`
   const [other] = found
   if (other !== undefined && found.length === 1) return `this is the subheader of a ${nameOf(other)}`
-  return `no 3E or 4E subheader, which is ${SUBHEADERS.map(shown).join(', ')}`
+  return `no 3E, 4E or station extension subheader, which is ${SUBHEADERS.map(shown).join(', ')}`
 }
 
 function nameOf({ frame, code, direction }: Pick<Subheader, 'frame' | 'code' | 'direction'>): string {
-  return `${frame} ${direction}, ${code === 'ascii' ? 'ASCII' : 'binary'} code`
+  return `${frameFacts[frame].title} ${direction}, ${code === 'ascii' ? 'ASCII' : 'binary'} code`
 }
 
 function shown({ bytes, code }: Subheader): string {
@@ -133,27 +136,31 @@ function hintsFor(bytes: Buffer): readonly string[] {
   return []
 }
 
-// --- 3E and 4E
+// --- 3E, 4E and station extension
 
 const { bytes: bytesOf, fixed, u16, u8 } = field
 
 /** What stands in front of the body (SLMP reference manual 4.1, 4.2); a test holds it against the framing. */
-function headOf({ frame, direction }: Subheader): Shape {
+function headOf(subheader: Subheader): Shape {
+  return { ...upToLength(subheader), ...(subheader.direction === 'request' ? { monitoringTimer: u16() } : {}) }
+}
+
+function upToLength({ frame }: Subheader): Shape {
   return {
     subheader: bytesOf(2),
-    ...(frame === '4E' ? { serial: u16(), reserved: fixed(0, 2) } : {}),
+    ...(frameFacts[frame].serial ? { serial: u16(), reserved: fixed(0, 2) } : {}),
     network: u8(),
     station: u8(),
     moduleIo: u16(),
     multidrop: u8(),
+    ...(frame === 'ext' ? { fixedValue: fixed(0, 1), extensionStation: u16() } : {}),
     dataLength: u16(),
-    ...(direction === 'request' ? { monitoringTimer: u16() } : {}),
   }
 }
 
 function explain3e(bytes: Buffer, known: Known, detected: Subheader, options: ExplainFrameOptions): FrameExplanation {
   const { frame, code, direction } = detected
-  const settings: Settings = { ...known, code }
+  const settings: Settings = { ...known, code, body: bodies[frame] }
   const explainer = new Explainer(bytes, code)
   const lengthEnd = endOfLength(bytes, detected)
   const head = explainer.read(headOf(detected), (leaf) => {
@@ -176,9 +183,8 @@ function explain3e(bytes: Buffer, known: Known, detected: Subheader, options: Ex
 }
 
 /** Where the data length ends: what it counts begins there. */
-function endOfLength(bytes: Buffer, { frame, code }: Subheader): number {
-  const size = (frame === '4E' ? 13 : 9) * (code === 'ascii' ? 2 : 1)
-  return Math.min(size, bytes.length)
+function endOfLength(bytes: Buffer, subheader: Subheader): number {
+  return Math.min(measure(upToLength(subheader), { ascii: subheader.code === 'ascii', form: 0 }), bytes.length)
 }
 
 function lengthText(announced: number, present: number): string {
@@ -208,7 +214,7 @@ interface Rest {
 
 function explainRequest(explainer: Explainer, settings: Settings): Rest {
   const { command, title, secret } = explainRequestBody(explainer, settings)
-  return { title, secret, about: command === undefined ? {} : { command: command.name } }
+  return { title, secret, about: aboutOf(command) }
 }
 
 function explainResponse(
@@ -220,12 +226,12 @@ function explainResponse(
   const asked = requestOf(explainer, options.request, settings, serial, 'request')
   const registered = requestOf(explainer, options.registration, settings, undefined, 'registration')
   const command = asked?.command
-  const about = command === undefined ? {} : { command: command.name }
+  const about = aboutOf(command)
   const { endCode } = explainer.read({ endCode: u16() }, ({ value }) => endCodeText(Number(value), 4, command?.name))
   if (typeof endCode !== 'number') return { title: 'cut short', secret: false, about }
   if (endCode === 0) {
-    const { title, secret } = explainResponseBody(explainer, settings, asked, registered)
-    return { title, secret, about: { ...about, endCode } }
+    const { title, secret, command: answered } = explainResponseBody(explainer, settings, asked, registered)
+    return { title, secret, about: { ...aboutOf(answered ?? command), endCode } }
   }
   explainRefusal(explainer, settings, asked)
   return {
@@ -235,12 +241,16 @@ function explainResponse(
   }
 }
 
+function aboutOf(command: Command | undefined): Rest['about'] {
+  return command === undefined ? {} : { command: command.name }
+}
+
 /** Error information; devices exist that shorten it or leave it out. */
 function explainRefusal(explainer: Explainer, settings: Settings, asked: KnownRequest | undefined): void {
   if (explainer.remaining === 0) return
   const found = explainErrorInformation(explainer, settings)
   if (asked !== undefined && typeof found.command === 'number' && found.command !== asked.command.code) {
-    explainer.notes.push('The error information is about another command than the request that was given.')
+    explainer.notes.push(OTHER_COMMAND)
   }
 }
 
@@ -257,7 +267,7 @@ function requestOf(
     one.bytes.equals(bytes.subarray(0, one.bytes.length)),
   )
   const scanned = found && scanned3e(found, bytes)
-  const request = scanned && readRequestBody(scanned.body, settings)
+  const request = found && scanned && readRequestBody(scanned.body, { ...settings, body: bodies[found.frame] })
   if (request === undefined) explainer.notes.push(`The frame given as ${option} is no request that can be read.`)
   if (serial !== undefined && scanned?.serial !== undefined && scanned.serial !== serial) {
     explainer.notes.push(`The request has serial number ${scanned.serial}: this does not answer it.`)

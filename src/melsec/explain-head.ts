@@ -1,16 +1,11 @@
 // Words for what stands around the data of a command: route, timer, end code, command and subcommand.
 import { hex, type Leaf } from '../codec/annotate'
-import { type Declaration, field, type Shape } from '../codec/codec'
+import type { Declaration } from '../codec/codec'
 import type { CommandName } from './commands/commands'
 import { explainEndCode } from './end-code'
 import { readSubcommand } from './form'
 import type { DeviceForm } from './profile'
 import { moduleIoNumbers, ownStation } from './route'
-
-const { u16 } = field
-
-/** In front of the data of every request of the SLMP set. */
-export const commandFields = { command: u16(), subcommand: u16() } as const satisfies Shape
 
 /** A field of a head in words, by its name; `undefined` for one that is no field of a head. */
 export function describeHead({ name, value }: Leaf): string | undefined {
@@ -24,6 +19,8 @@ export function describeHead({ name, value }: Leaf): string | undefined {
       return value === 0xff ? '255 (FFH: the connected station)' : `${value} (${hex(value, 2)}H)`
     case 'moduleIo':
       return moduleIoText(value)
+    case 'extensionStation':
+      return extensionText(value)
     case 'multidrop':
       return value === 0 ? '0 (no multidrop station)' : `${value}`
     case 'monitoringTimer':
@@ -31,6 +28,10 @@ export function describeHead({ name, value }: Leaf): string | undefined {
     case 'serial':
       return `${value} (${hex(value, 4)}H)`
     case 'reserved':
+    case 'fixedValue':
+    case 'fixedValueOfStation':
+    case 'systemArea':
+    case 'systemAreaEnd':
       return 'fixed'
     case 'frameId':
       return `${hex(value, 2)}H (4C frame)`
@@ -39,6 +40,13 @@ export function describeHead({ name, value }: Leaf): string | undefined {
     default:
       return undefined
   }
+}
+
+function extensionText(value: number): string {
+  const code = `${value} (${hex(value, 4)}H`
+  // SLMP reference manual p. 23; with 0 the station field says what is meant.
+  if (value === 0) return `${code}: the station field says it; behind station 124 the designated master station)`
+  return value === 0xffff ? `${code}: the connected station)` : `${code})`
 }
 
 function moduleIoText(value: number): string {

@@ -4,6 +4,7 @@ import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import type { CommandName } from './commands/commands'
 import type { DeviceName, ExtensionKind } from './device'
+import type { FrameName } from './frames'
 import type { LimitRule, LimitUnit } from './limit'
 import { fx3 } from './profiles/fx3'
 import { fx5Enet } from './profiles/fx5-enet'
@@ -33,7 +34,7 @@ export const profileIds = [
 ] as const
 
 export type ProfileId = (typeof profileIds)[number]
-export type FrameName = '3E' | '4E' | '1E'
+export type { FrameName } from './frames'
 export type TransportName = 'tcp' | 'udp'
 /** Device specification: the subcommands 000x, 0002/0003 (iQ-R), 0080/0081 and 0082/0083. */
 export type DeviceForm = 'short' | 'long' | 'extendedShort' | 'extendedLong'
@@ -329,7 +330,8 @@ export function exclusionOf(profile: Profile, command: CommandName, device: Devi
 
 /**
  * How many requests may be in flight (SLMP reference manual 3.3). Pipelining needs the serial number of the 4E frame and
- * datagrams: over TCP an FX5U answers only the last of two requests that arrive together.
+ * datagrams: over TCP an FX5U answers only the last of two requests that arrive together. Of the RJ71GN11-T2, which alone
+ * takes the station extension frame, the manual does not say what it can hold: one.
  *
  * @throws RequestError BAD_OPTION when `connections` is not a whole number of at least 1.
  * @example inFlightBound(resolveProfile('iq-r'), 'udp', '4E') // 33

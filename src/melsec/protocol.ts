@@ -1,26 +1,25 @@
 // The SLMP command set in a frame: encodes requests and reads answers, and the same from the PLC's side.
-// The frames differ only in their head, so one class serves 3E, 4E and 4C.
-import { type Context, type DataCode, decode, encode, measure, readerOf, writerOf } from '../codec/codec'
+// The frames differ in their head, and in what stands around the data (BodyLayout): one class serves all of them.
+import { type Context, type DataCode, decode, encode, measure, type Reader, readerOf, writerOf } from '../codec/codec'
 import { EndCodeError, ProtocolError, RequestError } from '../errors'
 import type { Exchange, Framing, RequestFrame, ResponseFrame } from '../link/link'
+import { type BodyLayout, commandFields, type ErrorInformation, plainBody } from './body'
 import type { Command, RequestOf, ResponseOf } from './command'
 import { type CommandName, commands } from './commands/commands'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf } from './device-uses'
 import { explainEndCode } from './end-code'
-import { type ErrorInformation, errorInformation } from './error-information'
 import { checkDrives } from './file-check'
 import { chooseForm, codecBits, FORM_BITS, findCommand, subcommandOf } from './form'
 import { checkLimits } from './limit'
 import type { DeviceForm, Profile } from './profile'
+import { describeRoute } from './route'
 
 type Bag = Readonly<Record<string, unknown>>
 
-/** Bytes of command and subcommand in front of the data. */
-const COMMAND_SIZE = { binary: 4, ascii: 8 } as const
-
 export interface MelsecProtocolOptions<Head> {
-  readonly framing: Framing<Head>
+  /** `body`: what stands around the data; default as in 3E and 4E. */
+  readonly framing: Framing<Head> & { readonly body?: BodyLayout }
   /** Head of every request: route and monitoring timer. */
   readonly head: Head
   readonly profile: Profile
@@ -95,13 +94,18 @@ export class MelsecProtocol<Head> {
   readonly framing: Framing<Head>
   readonly profile: Profile
   readonly code: DataCode
+  /** Bytes in front of the data of a request: command, subcommand, fixed values. */
+  readonly dataAt: number
   readonly #head: Head
   /** Form bits that are settings of the port and not part of the subcommand. */
   readonly #digitBits: number
   readonly #unknownDigits: readonly UnknownDigits[]
+  readonly #layout: BodyLayout
 
   constructor(options: MelsecProtocolOptions<Head>) {
     this.framing = options.framing
+    this.#layout = options.framing.body ?? plainBody
+    this.dataAt = measure({ ...commandFields, ...this.#layout.reserved }, { ascii: options.code === 'ascii', form: 0 })
     this.profile = options.profile
     this.code = options.code
     this.#head = options.head
@@ -127,10 +131,11 @@ export class MelsecProtocol<Head> {
     const writer = writerOf(this.code, bits)
     writer.uint(command.code, 2)
     writer.uint(subcommand, 2)
+    encode(this.#layout.reserved, {}, writer)
     encode(command.request, bag, writer)
     const body = writer.take()
     // What was sent counts, not an object that the caller may change before the answer comes.
-    const sent: Bag = decode(command.request, readerOf(this.code, body.subarray(COMMAND_SIZE[this.code]), bits))
+    const sent: Bag = decode(command.request, readerOf(this.code, body.subarray(this.dataAt), bits))
     checkDrives(this.profile, command, sent)
     const context = this.#contextOf(command, sent, options)
     return {
@@ -183,21 +188,40 @@ export class MelsecProtocol<Head> {
   ): ResponseOf<C> {
     if (frame.endCode !== 0) throw this.#refusal(command, subcommand, frame)
     const reader = readerOf(this.code, frame.body, form)
+    // Where silence is the success there is no answer that could repeat anything.
+    const isSilence = command.answered === 'no' && frame.body.length === 0
+    if (this.#layout.echoed && !isSilence) this.#checkEcho(command, subcommand, reader)
     const message = decode<C['response']>(command.response, reader, context)
     reader.end()
     return message
   }
 
+  /** Command, subcommand and fixed values in front of the data of an answer (SLMP reference manual 4.2). */
+  #checkEcho(command: Command, subcommand: number, reader: Reader): void {
+    const found = decode(commandFields, reader)
+    if (found.command !== command.code || found.subcommand !== subcommand) {
+      throw new ProtocolError(
+        'ECHO_MISMATCH',
+        `The answer is about ${codes(found)}, not ${codes({ command: command.code, subcommand })}.`,
+      )
+    }
+    decode(this.#layout.reserved, reader)
+  }
+
   #refusal(command: Command, subcommand: number, frame: ResponseFrame<Head>): EndCodeError {
     const information = this.#errorInformation(frame.body)
+    // Devices that shorten the error information still say in an echo which request they refuse.
+    if (information === undefined && this.#layout.echoed && frame.body.length >= this.dataAt) {
+      this.#checkEcho(command, subcommand, readerOf(this.code, frame.body))
+    }
     if (information !== undefined && (information.command !== command.code || information.subcommand !== subcommand)) {
       throw new ProtocolError(
         'ECHO_MISMATCH',
-        `The answer with end code ${hex4(frame.endCode)} is about command ${hex4(information.command)}, not ${hex4(command.code)}.`,
+        `The answer with end code ${hex4(frame.endCode)} is about ${codes(information)}, not ${codes({ command: command.code, subcommand })}.`,
       )
     }
     const text = explainEndCode(frame.endCode, { command: command.name as CommandName })
-    const station = information === undefined ? undefined : describeStation(information)
+    const station = information === undefined ? undefined : describeRoute(information)
     const meaning = [text?.meaning, text?.cause].filter((part) => part !== undefined).join(' ')
     const known = text === undefined ? 'No text is known for this code.' : `${meaning} ${text.remedy}`
     return new EndCodeError(
@@ -213,6 +237,7 @@ export class MelsecProtocol<Head> {
 
   /** The error information, when the answer holds all of it: 4C has none, and devices exist that shorten it. */
   #errorInformation(body: Buffer): ErrorInformation | undefined {
+    const { errorInformation } = this.#layout
     if (body.length < measure(errorInformation, { ascii: this.code === 'ascii', form: 0 })) return undefined
     return decode(errorInformation, readerOf(this.code, body))
   }
@@ -225,6 +250,7 @@ export class MelsecProtocol<Head> {
     const head = readerOf(this.code, frame.body)
     const code = head.uint(2)
     const subcommand = head.uint(2)
+    decode(this.#layout.reserved, head)
     const known = findCommand(commands, this.profile, code, subcommand)
     if (known === undefined) return { unknown: { command: code, subcommand } }
     const { command, form } = known
@@ -243,6 +269,10 @@ export class MelsecProtocol<Head> {
   ): Buffer {
     const { command, form, subcommand } = request
     const writer = writerOf(this.code, codecBits(command, form, subcommand) | this.#digitBits)
+    if (this.#layout.echoed) {
+      encode(commandFields, { command: command.code, subcommand }, writer)
+      encode(this.#layout.reserved, {}, writer)
+    }
     const shape = command.context === undefined ? command.request : commands[command.context as CommandName].request
     encode(command.response, response, writer, { shape, message: context })
     return writer.take()
@@ -251,13 +281,13 @@ export class MelsecProtocol<Head> {
   /** The PLC's side: what stands behind an end code other than 0. */
   writeErrorInformation(information: ErrorInformation): Buffer {
     const writer = writerOf(this.code)
-    encode(errorInformation, information, writer)
+    encode(this.#layout.errorInformation, information, writer)
     return writer.take()
   }
 }
 
-function describeStation({ network, station, moduleIo, multidrop }: ErrorInformation): string {
-  return `network ${network}, station ${station}, module I/O ${hex4(moduleIo)}, multidrop ${multidrop}`
+function codes({ command, subcommand }: { readonly command: number; readonly subcommand: number }): string {
+  return `command ${hex4(command)}, subcommand ${hex4(subcommand)}`
 }
 
 function hex4(value: number): string {

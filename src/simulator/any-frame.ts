@@ -3,15 +3,15 @@ import { type DataCode, failAt, uintAt } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { BodyLength, Framing, RequestFrame, Scanned } from '../link/link'
 import { frame1e, type Head1e } from '../melsec/frame-1e'
-import { frame3e, type Head3e } from '../melsec/frame-3e'
-import type { FrameName } from '../melsec/profile'
+import { frame3e, type Head3e, type SlmpFraming } from '../melsec/frame-3e'
+import { type FrameName, frameFacts, type SlmpFrameName } from '../melsec/frames'
 
 /** A head that says in which frame it came, so that the answer goes out in the same one. */
 export type AnyHead =
-  | { readonly frame: '3E' | '4E'; readonly head: Head3e }
+  | { readonly frame: SlmpFrameName; readonly head: Head3e }
   | { readonly frame: '1E'; readonly head: Head1e }
 
-/** Subheaders of 1E requests go up to this; those of 3E and 4E are 50 and 54. */
+/** Subheaders of 1E requests go up to this; those of 3E, 4E and station extension are 50, 54 and 68. */
 const LAST_COMMAND_1E = 0x1f
 
 /**
@@ -24,7 +24,7 @@ export function anyFrame(
   unreadable: (bytes: Buffer) => void,
   length1e: BodyLength<Head1e> = () => undefined,
 ): Framing<AnyHead> {
-  const framings = { '3E': frame3e('3E', code), '4E': frame3e('4E', code) }
+  const framings = slmpFramings(code)
   const aCompatible = frame1e(code)
   const read = (name: FrameName, bytes: Buffer): Scanned<RequestFrame<AnyHead>> | undefined => {
     if (name === '1E') {
@@ -32,7 +32,7 @@ export function anyFrame(
       const scanned = aCompatible.request.scan(bytes, length1e)
       return scanned && { ...scanned, frame: { ...scanned.frame, head: { frame: name, head: scanned.frame.head } } }
     }
-    const scanned = framings[name].request.scan(bytes, () => undefined)
+    const scanned = framings(name).request.scan(bytes, () => undefined)
     return scanned && { ...scanned, frame: { ...scanned.frame, head: { frame: name, head: scanned.frame.head } } }
   }
   let candidates = frames
@@ -59,17 +59,28 @@ export function anyFrame(
       write: (any, serial, body) =>
         any.frame === '1E'
           ? aCompatible.request.write(any.head, serial, body)
-          : framings[any.frame].request.write(any.head, serial, body),
+          : framings(any.frame).request.write(any.head, serial, body),
       scan,
     },
     response: {
       write: (any, serial, endCode, body) =>
         any.frame === '1E'
           ? aCompatible.response.write(any.head, serial, endCode, body)
-          : framings[any.frame].response.write(any.head, serial, endCode, body),
+          : framings(any.frame).response.write(any.head, serial, endCode, body),
       scan: () => undefined,
     },
     mismatch: () => undefined,
+  }
+}
+
+/** The framing of each frame that the code has. */
+function slmpFramings(code: DataCode): (frame: SlmpFrameName) => SlmpFraming {
+  const framings = { '3E': frame3e('3E', code), '4E': frame3e('4E', code) }
+  const extension = frameFacts.ext.codes.includes(code) ? frame3e('ext', code) : undefined
+  return (frame) => {
+    if (frame !== 'ext') return framings[frame]
+    if (extension === undefined) throw new TypeError(`a port in ${code} code takes no station extension frame`)
+    return extension
   }
 }
 

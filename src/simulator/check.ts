@@ -6,7 +6,7 @@ import { devicesOf, type FoundDevice } from '../melsec/device-uses'
 import { brokenLimit } from '../melsec/limit'
 import { exclusionOf, lackOf, type Profile } from '../melsec/profile'
 import type { ReceivedRequest } from '../melsec/protocol'
-import { ownStation, type Route } from '../melsec/route'
+import { isConnectedStation, type Route, stationText } from '../melsec/route'
 import { furtherRefusals, Refusal, requestErrors } from './refusal'
 
 /** @throws Refusal with the end code a PLC of this family gives. */
@@ -57,8 +57,8 @@ function accessEndCode(profile: Profile, { address, use }: Pick<FoundDevice, 'ad
 /** Why a request is not for this PLC, or undefined when it is. */
 export function routeRefusal(profile: Profile, route: Route): Refusal | undefined {
   const { station, module } = furtherRefusals[profile.id]
-  if (route.network !== ownStation.network || route.station !== ownStation.station || route.multidrop !== 0) {
-    return new Refusal(station, `no way to network ${route.network}, station ${route.station}`)
+  if (!isConnectedStation(route) || route.multidrop !== 0) {
+    return new Refusal(station, `no way to network ${route.network}, ${stationText(route).toLowerCase()}`)
   }
   return profile.reach.ownModuleIo.includes(route.moduleIo)
     ? undefined

@@ -3,10 +3,11 @@
 import { withoutSecrets } from '../codec/annotate'
 import type { Effect } from '../codec/codec'
 import { type Framing, Responder } from '../link/link'
+import { bodies } from '../melsec/body'
 import type { CommandName } from '../melsec/commands/commands'
 import { writeOnDemand } from '../melsec/on-demand'
 import type { FrameName } from '../melsec/profile'
-import { ownStation } from '../melsec/route'
+import { ownStation, type Route } from '../melsec/route'
 import type { Clock } from '../transport/clock'
 import type { ServerConnection } from '../transport/transport'
 import { type AnyHead, anyFrame } from './any-frame'
@@ -17,7 +18,7 @@ import { unaskedHead } from './on-demand'
 import type { Answer, Plc } from './plc'
 import type { RemotePassword } from './port-lock'
 import { Refusal, requestErrors } from './refusal'
-import { type Ports, type Received, receive } from './request'
+import { type Ports, type Received, receive, slmpOf } from './request'
 import { Sequence, type Step } from './sequence'
 import type { Counters } from './statistics'
 
@@ -135,7 +136,8 @@ export class Connection {
   sendOnDemand(data: Uint8Array): boolean {
     const head = this.#spoken === undefined ? undefined : unaskedHead(this.#spoken)
     if (head === undefined || this.#ended) return false
-    const body = writeOnDemand(this.#shared.ports.slmp.code, data)
+    const { reserved } = bodies[head.frame]
+    const body = writeOnDemand(this.#shared.ports.slmp.code, data, reserved)
     const bytes = this.#framing.request.write(head, this.#unaskedSerial++ & 0xffff, body)
     this.#shared.counters.onDemands++
     if (this.#inPieces) this.#unasked.push(bytes)
@@ -223,8 +225,8 @@ export class Connection {
     const { frame, command, subcommand } = work.received
     if (frame.head.frame === '1E') return ports.aCompatible.errorBody(endCode, abnormal)
     const { route } = frame.head.head
-    const station = routeRefusal(plc.profile, route) === undefined ? route : ownStation
-    const body = ports.slmp.writeErrorInformation({ ...station, command, subcommand })
+    const station = routeRefusal(plc.profile, route) === undefined ? route : own(route)
+    const body = slmpOf(ports, frame.head.frame).writeErrorInformation({ ...station, command, subcommand })
     const short = faults.take('shortError', work)
     return short === undefined ? body : body.subarray(0, short.bytes)
   }
@@ -340,6 +342,11 @@ export class Connection {
     this.#shared.counters.bytesSent += bytes.length
     this.#peer.send(bytes)
   }
+}
+
+/** This station in the fields of the frame that asked. */
+function own({ extensionStation }: Route): Route {
+  return extensionStation === undefined ? ownStation : { ...ownStation, extensionStation: 0 }
 }
 
 function acting(act: () => void): Step {

@@ -2,6 +2,7 @@
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import { bytesOfWords } from '../melsec/commands/on-demand'
+import type { Head3e } from '../melsec/frame-3e'
 import { writeOnDemand } from '../melsec/on-demand'
 import type { FrameName } from '../melsec/profile'
 import { ownStation } from '../melsec/route'
@@ -48,6 +49,6 @@ export function chosen<C extends { readonly id: number }>(all: Iterable<C>, { co
 }
 
 /** What stands in front of a body that nobody asked for. A 1E frame cannot carry one. */
-export function unaskedHead(frame: FrameName): AnyHead | undefined {
+export function unaskedHead(frame: FrameName): Extract<AnyHead, { readonly head: Head3e }> | undefined {
   return frame === '1E' ? undefined : { frame, head: { route: ownStation, timer: 0 } }
 }

@@ -3,6 +3,7 @@ import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import type { OddBits } from '../melsec/a-compatible-rules'
 import { type DeviceName, findDevice } from '../melsec/device'
+import { frameFacts } from '../melsec/frames'
 import { modelOf } from '../melsec/model-code'
 import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
 import { passwordProblem } from '../melsec/remote-password'
@@ -26,7 +27,7 @@ export interface PlcSimulatorOptions {
   readonly profileOverrides?: ProfileOverrides
   /** Communication data code of the port. The other one is answered by silence. Default `binary`. */
   readonly code?: DataCode
-  /** Frames the port takes, told apart by their subheaders. Default: all of the profile. */
+  /** Frames the port takes, told apart by their subheaders. Default: all of the profile that the code has. */
   readonly frames?: readonly FrameName[]
   /** ASCII code on a family with octal X and Y: the port's setting. Default `octal` there. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
@@ -141,10 +142,11 @@ const MODEL_LENGTH = 16
 /** @throws RequestError BAD_OPTION */
 export function settingsOf(options: PlcSimulatorOptions): Settings {
   const profile = resolveProfile(options.profile ?? 'iq-r', options.profileOverrides)
+  const code = oneOf('code', options.code ?? 'binary', profile.codes)
   const settings: Settings = {
     profile,
-    code: oneOf('code', options.code ?? 'binary', profile.codes),
-    frames: framesOf(profile, options.frames),
+    code,
+    frames: framesOf(profile, code, options.frames),
     asciiXy: oneOf('asciiXy', options.asciiXy ?? (profile.xyRadix === 8 ? 'octal' : 'hexadecimal'), [
       'octal',
       'hexadecimal',
@@ -181,9 +183,10 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
   return settings
 }
 
-function framesOf(profile: Profile, frames: readonly FrameName[] = profile.frames): readonly FrameName[] {
-  if (frames.length === 0) bad('frames', 'A port takes at least one frame.')
-  return frames.map((frame) => oneOf('frames', frame, profile.frames))
+function framesOf(profile: Profile, code: DataCode, frames?: readonly FrameName[]): readonly FrameName[] {
+  const possible = profile.frames.filter((frame) => frameFacts[frame].codes.includes(code))
+  if (frames?.length === 0) bad('frames', 'A port takes at least one frame.')
+  return frames === undefined ? possible : frames.map((frame) => oneOf('frames', frame, possible))
 }
 
 function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['model'] {

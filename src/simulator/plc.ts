@@ -16,7 +16,7 @@ import type { LabelTable } from './labels'
 import { DeviceMemory, type ExtensionMemory } from './memory'
 import { ProgramMemory } from './program-memory'
 import { Refusal } from './refusal'
-import type { Ports, Received } from './request'
+import { type Ports, type Received, slmpOf } from './request'
 
 /** The answer to a request: response data, an end code, or nothing at all. */
 export type Answer =
@@ -93,7 +93,8 @@ export class Plc {
   answer(ports: Ports, received: Received, call: Call): Answer {
     const { head } = received.frame
     try {
-      return head.frame === '1E' ? this.#answer1e(received, call) : this.#answer(ports.slmp, head.head, received, call)
+      if (head.frame === '1E') return this.#answer1e(received, call)
+      return this.#answer(slmpOf(ports, head.frame), head.head, received, call)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
       const { endCode, message, abnormal } = head.frame === '1E' ? ports.aCompatible.refusalOf(error) : error

@@ -6,6 +6,7 @@ import { type CommandName, commands } from '../melsec/commands/commands'
 import { deviceAddress } from '../melsec/device-codec'
 import { codecBits, findCommand } from '../melsec/form'
 import type { Head1e } from '../melsec/frame-1e'
+import type { SlmpFrameName } from '../melsec/frames'
 import { limitsOf } from '../melsec/limit'
 import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
 import { setReset } from '../melsec/set-reset'
@@ -27,13 +28,22 @@ export interface Received {
 
 /** The protocols of a port. */
 export interface Ports {
+  /** 3E and 4E. */
   readonly slmp: MelsecProtocol<AnyHead>
+  /** The same commands in the station extension frame. */
+  readonly extended: MelsecProtocol<AnyHead>
   readonly aCompatible: ACompatiblePort
 }
 
+/** The protocol of the SLMP set for a frame. */
+export function slmpOf({ slmp, extended }: Ports, frame: SlmpFrameName): MelsecProtocol<AnyHead> {
+  return frame === 'ext' ? extended : slmp
+}
+
 /** Reads a frame; never throws for what a client can send. */
-export function receive({ slmp: protocol, aCompatible }: Ports, frame: RequestFrame<AnyHead>): Received {
-  if (frame.head.frame === '1E') return receive1e(aCompatible, frame, frame.head.head)
+export function receive(ports: Ports, frame: RequestFrame<AnyHead>): Received {
+  if (frame.head.frame === '1E') return receive1e(ports.aCompatible, frame, frame.head.head)
+  const protocol = slmpOf(ports, frame.head.frame)
   const { command, subcommand } = codesOf(protocol, frame.body)
   return { frame, command, subcommand, request: requestOf(protocol, frame, command, subcommand) }
 }
@@ -88,9 +98,11 @@ function endCodeOf(
   if (error.code === 'BAD_DIGIT') return requestErrors.asciiConversion
   if (error.code === 'TRUNCATED' || error.code === 'TRAILING') return refusals.length
   const found = findCommand(commands, protocol.profile, code, subcommand)
-  if (found === undefined) return requestErrors.content
+  // The station extension frame has fixed values in front of the data.
+  const fixed = body.subarray(protocol.code === 'ascii' ? 8 : 4, protocol.dataAt)
+  if (found === undefined || fixed.some((byte) => byte !== 0)) return requestErrors.content
   const bits = codecBits(found.command, found.form, subcommand)
-  const reader = readerOf(protocol.code, body.subarray(protocol.code === 'ascii' ? 8 : 4), bits)
+  const reader = readerOf(protocol.code, body.subarray(protocol.dataAt), bits)
   const culprit = culpritOf(found.command.request, reader)
   if (culprit === deviceAddress) return refusals.deviceName
   if (culprit === setReset) return requestErrors.bitData

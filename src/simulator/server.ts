@@ -1,5 +1,6 @@
 // A simulated PLC that listens: on TCP, on UDP and in memory.
 import { ClosedError } from '../errors'
+import { bodies } from '../melsec/body'
 import type { CommandName } from '../melsec/commands/commands'
 import type { Profile } from '../melsec/profile'
 import { MelsecProtocol } from '../melsec/protocol'
@@ -278,18 +279,15 @@ class Simulator implements PlcSimulator {
 
   #share(): Shared {
     const { profile, clock, code, frames, asciiXy, asciiZr, oddBits, scanTime } = this.#settings
-    const slmp = new MelsecProtocol<AnyHead>({
-      framing: anyFrame(frames, code, () => {}),
-      // The head of requests; a PLC sends none.
-      head: { frame: '3E', head: { route: ownStation, timer: 0 } },
-      profile,
-      code,
-      asciiXy,
-      asciiZr,
-    })
+    const framing = anyFrame(frames, code, () => {})
+    // The head of requests; a PLC sends none.
+    const head: AnyHead = { frame: '3E', head: { route: ownStation, timer: 0 } }
+    const given = { head, profile, code, asciiXy, asciiZr }
+    const slmp = new MelsecProtocol<AnyHead>({ ...given, framing })
+    const extended = new MelsecProtocol<AnyHead>({ ...given, framing: { ...framing, body: bodies.ext } })
     return {
       plc: this.#plc,
-      ports: { slmp, aCompatible: new ACompatiblePort({ profile, code, asciiXy, oddBits }) },
+      ports: { slmp, extended, aCompatible: new ACompatiblePort({ profile, code, asciiXy, oddBits }) },
       frames,
       faults: this.faults,
       clock,

@@ -34,7 +34,9 @@ describe('simulate', () => {
     expect((await clientOf(port).identify()).model).toBe('R08CPU')
     const { code, out, err } = await program.interrupt()
     expect([code, err]).toEqual([0, ''])
-    expect(out).toMatch(/^ {2}TCP +127\.0\.0\.1:\d+\n {2}UDP +127\.0\.0\.1:\d+\n {2}Frames +4E, 3E\n {2}Code +binary$/m)
+    expect(out).toMatch(
+      /^ {2}TCP +127\.0\.0\.1:\d+\n {2}UDP +127\.0\.0\.1:\d+\n {2}Frames +4E, 3E, ext\n {2}Code +binary$/m,
+    )
     expect(out).toContain(`Try: melsec-jw read --plc 127.0.0.1:${port} --profile iq-r D0 M0`)
   })
 

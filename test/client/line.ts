@@ -36,14 +36,17 @@ export const kinds: readonly string[] = [
   'tcp 4E ascii q',
   'udp 4E binary l',
   'tcp 3E binary generic',
+  'tcp ext binary iq-r',
+  'udp ext binary generic',
 ]
 
-/** Both transports, with and without serial numbers. */
+/** Both transports, with and without serial numbers; and the frame that repeats the command. */
 export const links: readonly string[] = [
   'tcp 3E binary iq-r',
   'tcp 4E binary iq-r',
   'udp 3E binary iq-r',
   'udp 4E binary iq-r',
+  'tcp ext binary iq-r',
 ]
 
 export interface Line extends Kind {

@@ -366,7 +366,7 @@ describe('events', () => {
     warned.mockRestore()
   })
 
-  test.each(['3E', '4E'] as const)(
+  test.each(['3E', '4E', 'ext'] as const)(
     'of a %s frame that the PLC sends unasked: told, and no answer to anything',
     (frame) =>
       withLine('tcp 4E binary iq-r', {}, async ({ plc, another }) => {
@@ -393,13 +393,14 @@ describe('events', () => {
         await client.connect()
         const told: UnsolicitedFrame[] = []
         const stop = client.on('unsolicited', (unsolicited) => told.push(unsolicited))
-        const body = Buffer.from('012100000102', 'hex')
+        const body = Buffer.from(frame === 'ext' ? '012100000000000000000102' : '012100000102', 'hex')
         const onDemand = frame3e(frame, 'binary').request.write({ route: ownStation, timer: 0 }, 0, body)
         const reading = client.read('D0')
         inject(onDemand)
         expect(await reading).toBe(5)
         inject(Buffer.concat([onDemand, onDemand]))
-        expect(told).toEqual(Array(3).fill({ route: ownStation, body, timestamp: expect.any(Number) }))
+        const route = expect.objectContaining(ownStation)
+        expect(told).toEqual(Array(3).fill({ route, body, timestamp: expect.any(Number) }))
         stop()
         inject(onDemand)
         expect(told).toHaveLength(3)

@@ -75,6 +75,16 @@ describe('defaults', () => {
     })
   })
 
+  test('a station above 120 is one of the extension field', () => {
+    expect(settle({ ...peer, frame: 'ext', route: { network: 1, station: 300 } }).route).toEqual({
+      ...ownStation,
+      network: 1,
+      station: 124,
+      extensionStation: 300,
+    })
+    expect(settle({ ...peer, frame: 'ext' }).route).toEqual(ownStation)
+  })
+
   test('with a transport of its own the client needs no host and no port', () => {
     const openTransport = () => {
       throw new Error('not yet')
@@ -110,8 +120,39 @@ describe('refused', () => {
     ['CPU No. 2 of an iQ-F', { profile: 'iq-f', route: { moduleIo: 0x3e1 } }, 'route', 'the connected station only'],
     ['a route with a field less', { profile: 'q-built-in', route: { multidrop: 3, moduleIo: 1 } }, 'route', 'only'],
     ['another code', { code: 'hex' }, 'code', 'must be binary or ascii'],
+    ['a station extension frame the family lacks', { profile: 'q', frame: 'ext' }, 'frame', 'has no ext frame: use 3E'],
+    [
+      'a station extension frame in ASCII code',
+      { profile: 'iq-r', frame: 'ext', code: 'ascii' },
+      'code',
+      'exists in binary code only: set code to binary',
+    ],
+    [
+      'station 300 in a 4E frame',
+      { profile: 'iq-r', route: { network: 1, station: 300 } },
+      'route.station',
+      "cannot say station 300: stations above 120 need the station extension frame (frame 'ext', by an RJ71GN11-T2)",
+    ],
+    [
+      'an extension station in a 3E frame',
+      { frame: '3E', route: { network: 1, station: 5, extensionStation: 0 } },
+      'route.extensionStation',
+      'A 3E frame cannot say',
+    ],
+    [
+      'a station number with two meanings',
+      { frame: 'ext', route: { network: 1, station: 125 } },
+      'route.station',
+      '{ station: 124, extensionStation: 125 }',
+    ],
+    [
+      'two in flight with the station extension frame',
+      { transport: 'udp', profile: 'iq-r', frame: 'ext', inFlight: 2 },
+      'inFlight',
+      'more needs the 4E frame over UDP',
+    ],
     ['another radix', { xyRadix: 10 }, 'xyRadix', 'must be 8 or 16'],
-    ['a station that does not exist', { route: { network: 1, station: 200 } }, 'route.station', ''],
+    ['a station that does not exist', { route: { network: 1, station: 0 } }, 'route.station', 'cannot be addressed'],
     ['a misspelt field of the route', { route: { net: 1 } }, 'route.net', 'A route has no "net"'],
     ['half a timer step', { profile: 'iq-r', monitoringTimer: 300 }, 'monitoringTimer', 'steps of 250 ms'],
     ['a timer that is too long', { profile: 'iq-r', monitoringTimer: 250 * 65_536 }, 'monitoringTimer', 'to 16383750'],

@@ -12,7 +12,7 @@ import { MelsecProtocol } from '../../src/melsec/protocol'
 import { ownStation } from '../../src/melsec/route'
 import type { ServerConnection } from '../../src/transport/transport'
 
-export type Frame = '3E' | '4E'
+export type Frame = '3E' | '4E' | 'ext'
 
 /** A request as the script sees it. */
 export interface Asked {
@@ -112,7 +112,7 @@ export class ScriptedPlc {
   }
 }
 
-const protocols = { '3E': protocolOf('3E'), '4E': protocolOf('4E') }
+const protocols = { '3E': protocolOf('3E'), '4E': protocolOf('4E'), ext: protocolOf('ext') }
 
 /** Requests ready to be sent. */
 export function exchanges(frame: Frame) {

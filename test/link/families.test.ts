@@ -10,12 +10,11 @@ import { jwProtocol } from '../../src/jw/protocol'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible-protocol'
 import { commands } from '../../src/melsec/commands/commands'
-import { frame3e } from '../../src/melsec/frame-3e'
 import { frame4cFormat5 } from '../../src/melsec/frame-4c'
 import { resolveProfile } from '../../src/melsec/profile'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { type Answer, Line, type Plc, type Wire } from './line'
-import { HEAD } from './support'
+import { HEAD, slmpFrames } from './support'
 
 type Bag = Readonly<Record<string, unknown>>
 const D = (number: number) => ({ device: 'D', number }) as const
@@ -30,11 +29,11 @@ function melsecPlc<Head>(protocol: MelsecProtocol<Head>, words = new Uint16Array
       const { head, points, values } = request.message as { head: { number: number }; points: number; values: number[] }
       if (request.name === 'readTypeName')
         return { endCode: 0, body: protocol.writeResponse(request, { model: 'R04CPU'.padEnd(16), modelCode: 0x4800 }) }
-      if (request.name === 'remoteRun') return { endCode: 0, body: Buffer.alloc(0) }
+      if (request.name === 'remoteRun') return { endCode: 0, body: protocol.writeResponse(request, {}) }
       if (head.number >= words.length) return { endCode: 0xc056, body: Buffer.alloc(0) }
       if (request.name === 'writeWords') {
         words.set(values, head.number)
-        return { endCode: 0, body: Buffer.alloc(0) }
+        return { endCode: 0, body: protocol.writeResponse(request, {}) }
       }
       const found = [...words.subarray(head.number, head.number + points)]
       return { endCode: 0, body: protocol.writeResponse(request, { values: found }) }
@@ -45,13 +44,9 @@ function melsecPlc<Head>(protocol: MelsecProtocol<Head>, words = new Uint16Array
 const wires: readonly Wire[] = ['whole', 'byte by byte', 'datagrams']
 
 describe.each(wires)('SLMP, %s', (wire) => {
-  const frames = (['3E', '4E'] as const).flatMap((frame) =>
-    (['binary', 'ascii'] as const).map((code) => ({ frame, code })),
-  )
-
-  test.each(frames)('$frame $code reads what it wrote', ({ frame, code }) => {
+  test.each(slmpFrames)('$title reads what it wrote', ({ framing, code }) => {
     const protocol = new MelsecProtocol({
-      framing: frame3e(frame, code),
+      framing,
       head: HEAD,
       profile: resolveProfile('iq-r'),
       code,

@@ -2,15 +2,10 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { Responder } from '../../src/link/link'
-import { frame3e } from '../../src/melsec/frame-3e'
 import { frame4cFormat5 } from '../../src/melsec/frame-4c'
-import { HEAD } from './support'
+import { HEAD, slmpFrames } from './support'
 
-const frames = (['3E', '4E'] as const).flatMap((frame) =>
-  (['binary', 'ascii'] as const).map((code) => [`${frame} ${code}`, frame3e(frame, code)] as const),
-)
-
-describe.each(frames)('%s', (_title, framing) => {
+describe.each(slmpFrames)('$title', ({ framing }) => {
   const responder = (kind: 'stream' | 'datagram' = 'stream') => new Responder(framing, kind, () => undefined)
   const request = (text: string, serial = 0x1234) => framing.request.write(HEAD, serial, Buffer.from(text))
   const bodies = (found: readonly { body: Buffer }[]) => found.map(({ body }) => String(body))
@@ -55,7 +50,7 @@ describe.each(frames)('%s', (_title, framing) => {
     const bytes = responder().answer(asked, 0xc059, Buffer.from('why'))
     const scanned = framing.response.scan(bytes, () => undefined)
     expect(scanned).toMatchObject({ used: bytes.length, frame: { endCode: 0xc059, serial: asked.serial } })
-    expect(scanned?.frame.head.route).toEqual(HEAD.route)
+    expect(scanned?.frame.head.route).toMatchObject(HEAD.route)
     expect(String(scanned?.frame.body)).toBe('why')
   })
 

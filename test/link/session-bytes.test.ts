@@ -4,15 +4,10 @@ import fc from 'fast-check'
 import { jwFrame } from '../../src/jw/frame'
 import { type Framing, Session, type SessionOptions } from '../../src/link/link'
 import { frame1e } from '../../src/melsec/frame-1e'
-import { frame3e } from '../../src/melsec/frame-3e'
 import { frame4cFormat5 } from '../../src/melsec/frame-4c'
-import { answer, eventsOf, HEAD, job, sent, sessionOf, told } from './support'
+import { answer, eventsOf, HEAD, job, sent, sessionOf, slmpFrames, told } from './support'
 
-const frames = (['3E', '4E'] as const).flatMap((frame) =>
-  (['binary', 'ascii'] as const).map((code) => [`${frame} ${code}`, frame3e(frame, code)] as const),
-)
-
-describe.each(frames)('%s', (_title, framing) => {
+describe.each(slmpFrames)('$title', ({ framing }) => {
   /** A session with a request in flight, and its answer. */
   function asking(options: Partial<SessionOptions> = {}) {
     const session = sessionOf(framing, options)
@@ -206,7 +201,7 @@ describe('any bytes', () => {
 
   const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
   const all: readonly Fuzzed[] = [
-    ...frames.map(([, framing]) => fuzzed(framing, HEAD)),
+    ...slmpFrames.map(({ framing }) => fuzzed(framing, HEAD)),
     ...(['binary', 'ascii'] as const).map((code) => fuzzed(frame1e(code), { command: 1, pc: 0xff, timer: 0 })),
     fuzzed(frame4cFormat5(), { route }),
     fuzzed(jwFrame(), { command: 0x24 }),
@@ -215,7 +210,10 @@ describe('any bytes', () => {
   const starts = [
     'd000',
     'd400010000',
+    'e800010000',
+    'e800010000000000ffff030000',
     '5000',
+    '6800',
     '44303030',
     '44343030',
     '8100',

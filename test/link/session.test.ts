@@ -3,9 +3,11 @@ import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
 import { type Framing, type RequestFrame, SerialNumbers } from '../../src/link/link'
 import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { answer, HEAD, job, sent, sessionOf, type TestSession, told } from './support'
+import { answer, HEAD, job, sent, sessionOf, slmpFrames, type TestSession, told } from './support'
 
 const codes = ['binary', 'ascii'] as const
+/** Frames with a serial number. */
+const numbered = slmpFrames.filter(({ framing }) => framing.correlation === 'serial')
 
 /** Submits the jobs and returns the requests that went out for them. */
 function ask(session: TestSession, framing: Framing<Head3e>, names: string, now = 0): RequestFrame<Head3e>[] {
@@ -13,8 +15,7 @@ function ask(session: TestSession, framing: Framing<Head3e>, names: string, now 
   return sent(session, framing)
 }
 
-describe.each(codes)('4E %s: answers find their requests by the serial number', (code) => {
-  const framing = frame3e('4E', code)
+describe.each(numbered)('$title: answers find their requests by the serial number', ({ framing }) => {
   const reply = (request: RequestFrame<Head3e> | undefined, options?: Parameters<typeof answer>[2]) => {
     if (request === undefined) throw new Error('nothing was asked')
     return answer(framing, request, options)

@@ -7,8 +7,14 @@ import {
   type SessionEvent,
   type SessionOptions,
 } from '../../src/link/link'
-import type { Head3e } from '../../src/melsec/frame-3e'
+import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
+import { frameFacts } from '../../src/melsec/frames'
 import { ownStation } from '../../src/melsec/route'
+
+/** Every frame of the SLMP set in every data code it has. */
+export const slmpFrames = (['3E', '4E', 'ext'] as const).flatMap((frame) =>
+  frameFacts[frame].codes.map((code) => ({ title: `${frame} ${code}`, frame, code, framing: frame3e(frame, code) })),
+)
 
 export const HEAD: Head3e = { route: ownStation, timer: 0 }
 

@@ -17,6 +17,7 @@ import {
 } from '../../src/melsec/explain-frame'
 import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
 import { frame4cFormat5 } from '../../src/melsec/frame-4c'
+import { frameFacts, type SlmpFrameName } from '../../src/melsec/frames'
 import { resolveProfile } from '../../src/melsec/profile'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, type FrameVector, type Message, vectorsOfKind } from '../vectors/vectors'
@@ -25,6 +26,9 @@ type Code = 'binary' | 'ascii'
 const head: Head3e = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 16 }
 const REGISTRATION = { words: [{ device: { device: 'D', number: 0 } }], doubleWords: [] } as const
 
+const requestVectors = [...vectorsOfKind('slmp', 'requestData'), ...vectorsOfKind('mc-serial', 'requestData')]
+const responseVectors = [...vectorsOfKind('slmp', 'responseData'), ...vectorsOfKind('mc-serial', 'responseData')]
+
 interface Asked {
   readonly code: Code
   readonly command: string
@@ -32,7 +36,7 @@ interface Asked {
   readonly xyRadix?: 8
 }
 
-function protocolOf({ code, xyRadix }: Pick<Asked, 'code' | 'xyRadix'>, frame: '3E' | '4E' = '3E') {
+function protocolOf({ code, xyRadix }: Pick<Asked, 'code' | 'xyRadix'>, frame: SlmpFrameName = '3E') {
   return new MelsecProtocol({
     framing: frame3e(frame, code),
     head,
@@ -47,7 +51,7 @@ function protocolOf({ code, xyRadix }: Pick<Asked, 'code' | 'xyRadix'>, frame: '
 function requestFrame(
   asked: Asked,
   message: Message | Readonly<Record<string, unknown>>,
-  frame: '3E' | '4E',
+  frame: SlmpFrameName,
   serial = 0,
 ) {
   const protocol = protocolOf(asked, frame)
@@ -111,7 +115,7 @@ function explained(bytes: Buffer, options: ExplainFrameOptions = {}): FrameExpla
   return explanation
 }
 
-describe('3E and 4E frames of the manuals', () => {
+describe('3E, 4E and station extension frames of the manuals', () => {
   const vectors = vectorsOfKind('slmp', 'frame')
 
   test.each(vectors)('$id: frame, code, side and head are told from the bytes', (vector) => {
@@ -120,7 +124,7 @@ describe('3E and 4E frames of the manuals', () => {
     expect(explanation).toMatchObject({ frame, code, direction: side })
     expect(explanation.serial).toBe(known?.serial)
     expect(explanation.endCode).toBe(endCode)
-    const shown = Object.fromEntries(explanation.rows.map(({ name, value }) => [name, value]))
+    const shown = Object.fromEntries(headOf(explanation).map(({ name, value }) => [name, value]))
     expect(shown).toMatchObject({
       ...known?.route,
       ...(known?.timer === undefined ? {} : { monitoringTimer: known.timer }),
@@ -138,51 +142,72 @@ describe('3E and 4E frames of the manuals', () => {
     const request = requestOf(vector)
     const explanation = explained(bytesOf(vector), { ...octal(vector), request })
     expect(explanation.command).toBe(vector.command)
-    expectMessage(explanation, vector.errorInformation ?? vector.message)
+    const rows = explanation.rows.slice(headOf(explanation).length)
+    expectMessage({ ...explanation, rows }, vector.errorInformation ?? vector.message)
     expect(explanation.notes).toEqual([])
   })
 
   test.each(answers)('$id: without its request the values have no names, and it is said why', (vector) => {
     const { rows, notes, command } = explained(bytesOf(vector))
-    expect(command).toBeUndefined()
+    // The station extension frame repeats the command.
+    expect(command).toBe(vector.frame === 'ext' && vector.endCode === 0 ? vector.command : undefined)
     const data = rows.filter(({ name }) => name.startsWith('data') && name !== 'dataLength')
     expect(notes).toEqual(data.length === 0 ? [] : [expect.stringContaining('the request')])
   })
 
+  /** Rows up to timer or end code: the error information has fields of the same names. */
+  function headOf({ rows }: FrameExplanation): readonly AnnotatedRow[] {
+    return rows.slice(0, rows.findIndex(({ name }) => name === 'dataLength') + 2)
+  }
+
   function requestOf(vector: FrameVector): Buffer {
     if (vector.request === undefined) throw new Error(`${vector.id} has no request`)
-    return requestFrame(vector, vector.request, vector.frame as '3E' | '4E', vector.head?.serial)
+    return requestFrame(vector, vector.request, vector.frame as SlmpFrameName, vector.head?.serial)
   }
 })
 
-describe.each(['3E', '4E'] as const)('the data of the manuals in a %s frame', (frame) => {
-  test.each([...vectorsOfKind('slmp', 'requestData'), ...vectorsOfKind('mc-serial', 'requestData')])(
-    '$id',
-    (vector) => {
-      const bytes = frame3e(frame, vector.code).request.write(head, 0x1234, bytesOf(vector))
-      const explanation = explained(bytes, octal(vector))
-      expect(explanation.command).toBe(vector.command)
-      expectMessage(explanation, vector.message)
-    },
-  )
+/** Data of the manuals that the frame can carry. */
+function carried<V extends { readonly code: Code }>(frame: SlmpFrameName, vectors: readonly V[]): V[] {
+  return vectors.filter(({ code }) => frameFacts[frame].codes.includes(code))
+}
 
-  test.each([...vectorsOfKind('slmp', 'responseData'), ...vectorsOfKind('mc-serial', 'responseData')])(
-    '$id',
-    (vector) => {
-      const bytes = frame3e(frame, vector.code).response.write(head, 0x1234, 0, bytesOf(vector))
-      const registration = { ...vector, command: 'entryMonitorDevice' }
-      const explanation = explained(bytes, {
-        ...octal(vector),
-        request: requestFrame(vector, vector.request, frame, 0x1234),
-        ...(vector.registration === undefined
-          ? {}
-          : { registration: requestFrame(registration, vector.registration, frame) }),
-      })
-      expect(explanation.command).toBe(vector.command)
-      expectMessage(explanation, vector.message)
-      expect(explanation.notes).toEqual([])
-    },
-  )
+/** Fixed value and system area of the station extension frame. */
+const RESERVED = Buffer.alloc(6)
+
+/** Body of a request with this command, subcommand and data. */
+function requestBody(frame: SlmpFrameName, data: Buffer): Buffer {
+  return frame === 'ext' ? Buffer.concat([data.subarray(0, 4), RESERVED, data.subarray(4)]) : data
+}
+
+/** Body of the answer to a request: the station extension frame repeats its command. */
+function answerBody(frame: SlmpFrameName, vector: (typeof responseVectors)[number]): Buffer {
+  if (frame !== 'ext') return bytesOf(vector)
+  const request = requestFrame(vector, vector.request, frame)
+  return Buffer.concat([request.subarray(18, 22), RESERVED, bytesOf(vector)])
+}
+
+describe.each(['3E', '4E', 'ext'] as const)('the data of the manuals in a %s frame', (frame) => {
+  test.each(carried(frame, requestVectors))('$id', (vector) => {
+    const { request } = frame3e(frame, vector.code)
+    const explanation = explained(request.write(head, 0x1234, requestBody(frame, bytesOf(vector))), octal(vector))
+    expect(explanation.command).toBe(vector.command)
+    expectMessage(explanation, vector.message)
+  })
+
+  test.each(carried(frame, responseVectors))('$id', (vector) => {
+    const bytes = frame3e(frame, vector.code).response.write(head, 0x1234, 0, answerBody(frame, vector))
+    const registration = { ...vector, command: 'entryMonitorDevice' }
+    const explanation = explained(bytes, {
+      ...octal(vector),
+      request: requestFrame(vector, vector.request, frame, 0x1234),
+      ...(vector.registration === undefined
+        ? {}
+        : { registration: requestFrame(registration, vector.registration, frame) }),
+    })
+    expect(explanation.command).toBe(vector.command)
+    expectMessage(explanation, vector.message)
+    expect(explanation.notes).toEqual([])
+  })
 })
 
 /** Rows as `name: text`. */
@@ -368,7 +393,7 @@ describe('what is wrong', () => {
 
   test.each([
     ['nothing', '', {}, 'there are no bytes'],
-    ['no subheader', 'ffff', {}, 'no 3E or 4E subheader'],
+    ['no subheader', 'ffff', {}, 'no 3E, 4E or station extension subheader'],
     [
       'another frame than said',
       '500000ffff0300',
@@ -424,9 +449,6 @@ describe('what is wrong', () => {
   })
 })
 
-const requestVectors = [...vectorsOfKind('slmp', 'requestData'), ...vectorsOfKind('mc-serial', 'requestData')]
-const responseVectors = [...vectorsOfKind('slmp', 'responseData'), ...vectorsOfKind('mc-serial', 'responseData')]
-
 /** A frame with some bytes changed, taken away or added. */
 function mutated(frame: Buffer): fc.Arbitrary<Buffer> {
   const change = fc.tuple(fc.nat(frame.length - 1), fc.integer({ min: 0, max: 255 }))
@@ -440,12 +462,12 @@ function mutated(frame: Buffer): fc.Arbitrary<Buffer> {
 }
 
 describe('mutated frames', () => {
-  test.each(['3E', '4E'] as const)(
+  test.each(['3E', '4E', 'ext'] as const)(
     '%s requests: never an exception, and a fault exactly where the PLC side finds one',
     (frame) => {
-      const frames = requestVectors.map((vector) => ({
+      const frames = carried(frame, requestVectors).map((vector) => ({
         vector,
-        bytes: frame3e(frame, vector.code).request.write(head, 9, bytesOf(vector)),
+        bytes: frame3e(frame, vector.code).request.write(head, 9, requestBody(frame, bytesOf(vector))),
       }))
       const one = fc
         .constantFrom(...frames)
@@ -465,7 +487,7 @@ describe('mutated frames', () => {
     },
   )
 
-  function readable(vector: (typeof requestVectors)[number], frame: '3E' | '4E', bytes: Buffer): boolean {
+  function readable(vector: (typeof requestVectors)[number], frame: SlmpFrameName, bytes: Buffer): boolean {
     const protocol = protocolOf(vector, frame)
     try {
       const scanned = protocol.framing.request.scan(bytes, () => undefined)
@@ -478,14 +500,15 @@ describe('mutated frames', () => {
     }
   }
 
-  test('answers, with and without their request: never an exception, every byte in a row', () => {
-    const one = fc.constantFrom(...responseVectors).chain((vector) => {
-      const bytes = frame3e('3E', vector.code).response.write(head, 0, 0, bytesOf(vector))
+  const kinds = ['3E', 'ext'] as const
+  test.each(kinds)('%s answers, with and without their request: never an exception, every byte in a row', (frame) => {
+    const one = fc.constantFrom(...carried(frame, responseVectors)).chain((vector) => {
+      const bytes = frame3e(frame, vector.code).response.write(head, 0, 0, answerBody(frame, vector))
       return fc.record({ vector: fc.constant(vector), bytes: mutated(bytes), asked: fc.boolean() })
     })
     fc.assert(
       fc.property(one, ({ vector, bytes, asked }) => {
-        const request = requestFrame(vector, vector.request, '3E')
+        const request = requestFrame(vector, vector.request, frame)
         const explanation = explainFrame(bytes, { ...octal(vector), ...(asked ? { request } : {}) })
         expect(uncovered(explanation, bytes)).toBeUndefined()
         expect(formatExplanation(explanation)).toEqual(expect.any(String))
@@ -495,9 +518,9 @@ describe('mutated frames', () => {
   })
 
   test('any bytes as any frame: never an exception, every byte in a row', () => {
-    const frames = [undefined, '3E', '4E', '1E', '4C'] as const
-    const starts = ['', '5000', 'd000', '5400', 'd400', '35303030', '44343030', '1002', '1002f800'].map((hex) =>
-      Buffer.from(hex, 'hex'),
+    const frames = [undefined, '3E', '4E', 'ext', '1E', '4C'] as const
+    const starts = ['', '5000', 'd000', '5400', 'd400', '6800', 'e800', '35303030', '44343030', '1002', '1002f800'].map(
+      (hex) => Buffer.from(hex, 'hex'),
     )
     fc.assert(
       fc.property(

@@ -13,13 +13,14 @@ import {
 import type { BodyLength, Framing } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible-protocol'
+import { bodies } from '../../src/melsec/body'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { errorInformation } from '../../src/melsec/error-information'
 import { FORM_BITS, subcommandOf } from '../../src/melsec/form'
 import { frame1e, type Head1e } from '../../src/melsec/frame-1e'
 import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
 import { frame4cFormat5, type Head4c } from '../../src/melsec/frame-4c'
 import { resolveProfile } from '../../src/melsec/profile'
+import type { Route } from '../../src/melsec/route'
 import { type FrameCase, testFeedings, testWrongSum } from '../vectors/feedings'
 import { bytesOf, type FrameVector, type Vector, vectorsOfKind } from '../vectors/vectors'
 
@@ -34,31 +35,45 @@ function given<T>(value: T | undefined, what: string): T {
   return value
 }
 
+/** Fixed value and system area of the station extension frame. */
+const RESERVED = [0, 0, 0, 0, 0, 0]
+
 /** Body of a frame of the SLMP set: command, subcommand and data, response data, or error information. */
 function bodyOf(vector: FrameVector): Buffer {
   const { code, form = 'short', side, message } = vector
+  const extended = vector.frame === 'ext'
   const command = commands[vector.command as CommandName]
   const writer = writerOf(code, FORM_BITS[form])
-  if (side === 'request') {
+  if (side === 'request' || (extended && message !== undefined)) {
     writer.uint(command.code, 2)
     writer.uint(subcommandOf(command, form, profile), 2)
-    encode<Shape>(command.request, given(message, 'message'), writer)
-  } else if (message !== undefined) {
-    const context: Context = { shape: command.request, message: given(vector.request, 'request') }
-    encode<Shape>(command.response, message, writer, context)
-  } else if (vector.errorInformation !== undefined) {
-    encode<Shape>(errorInformation, vector.errorInformation, writer)
+    if (extended) writer.bytes(RESERVED)
+  }
+  if (side === 'request') encode<Shape>(command.request, given(message, 'message'), writer)
+  else if (message !== undefined) encode<Shape>(command.response, message, writer, contextOf(vector))
+  else if (vector.errorInformation !== undefined) {
+    encode<Shape>(bodies[frameOf(vector)].errorInformation, vector.errorInformation, writer)
   }
   return writer.take()
 }
 
-function routeOf(vector: FrameVector): typeof own {
-  const { network, station, moduleIo, multidrop } = vector.head?.route ?? {}
+function contextOf({ command, request }: FrameVector): Context {
+  return { shape: commands[command as CommandName].request, message: given(request, 'request') }
+}
+
+/** Those of serial frames are plain. */
+function frameOf({ frame }: FrameVector): '3E' | '4E' | 'ext' {
+  return frame === '4E' || frame === 'ext' ? frame : '3E'
+}
+
+function routeOf(vector: FrameVector): Route {
+  const { network, station, moduleIo, multidrop, extensionStation } = vector.head?.route ?? {}
   return {
     network: given(network, 'network'),
     station: given(station, 'station'),
     moduleIo: given(moduleIo, 'module I/O'),
     multidrop: given(multidrop, 'multidrop'),
+    ...(extensionStation === undefined ? {} : { extensionStation }),
   }
 }
 
@@ -67,7 +82,7 @@ function slmpCase(vector: FrameVector): FrameCase<Head3e> {
   const unit = code === 'ascii' ? 2 : 1
   const route = routeOf(vector)
   return {
-    framing: frame3e(vector.frame as '3E' | '4E', code),
+    framing: frame3e(frameOf(vector), code),
     side,
     bytes: bytesOf(vector),
     head: { route, timer: side === 'request' ? given(head?.timer, 'timer') : 0 },
@@ -80,36 +95,39 @@ function slmpCase(vector: FrameVector): FrameCase<Head3e> {
 }
 
 /** Length of the response data, told from the request alone. */
-function measured({ command: name, code, form = 'short', request }: FrameVector): number {
-  const command = commands[name as CommandName]
-  const context: Context = { shape: command.request, message: given(request, 'request') }
-  return measure(command.response, { ascii: code === 'ascii', form: FORM_BITS[form], context })
+function measured(vector: FrameVector): number {
+  const { command, code, form = 'short' } = vector
+  const { response } = commands[command as CommandName]
+  return measure(response, { ascii: code === 'ascii', form: FORM_BITS[form], context: contextOf(vector) })
 }
 
 describe.each(['slmp', 'mc-serial'] as const)('normal answers of %s', (family) => {
   const answers = vectorsOfKind(family, 'frame').filter(({ side, endCode }) => side === 'response' && endCode === 0)
 
   test.each(answers)('$id is measured from its request', (vector) => {
-    expect(measured(vector)).toBe(bodyOf(vector).length)
+    const echo = vector.frame === 'ext' ? 4 + RESERVED.length : 0
+    expect(echo + measured(vector)).toBe(bodyOf(vector).length)
   })
 })
 
-describe('3E and 4E frames', () => {
+describe('3E, 4E and station extension frames', () => {
   const vectors = vectorsOfKind('slmp', 'frame')
   for (const vector of vectors) testFeedings(vector.id, vector.side, () => slmpCase(vector))
 
   const refusals = vectors.filter((vector) => vector.errorInformation !== undefined)
   test.each(refusals)('$id: error information is read', (vector) => {
     const reader = readerOf(vector.code, bodyOf(vector))
-    expect(decode(errorInformation, reader)).toEqual(vector.errorInformation)
+    expect(decode(bodies[frameOf(vector)].errorInformation, reader)).toEqual(vector.errorInformation)
     reader.end()
   })
 
-  test('cover both frames, codes and sides, and refusals', () => {
+  test('cover every frame, code and side, and refusals', () => {
     const kinds = vectors.map(({ frame, code, side }) => `${frame} ${code} ${side}`)
     // 4E ASCII requests are in print only as subheader and data.
-    expect(new Set(kinds).size).toBe(7)
-    expect(new Set(refusals.map(({ frame, code }) => `${frame} ${code}`)).size).toBeGreaterThanOrEqual(3)
+    expect(new Set(kinds).size).toBe(9)
+    const refused = new Set(refusals.map(({ frame, code }) => `${frame} ${code}`))
+    expect(refused.size).toBeGreaterThanOrEqual(4)
+    expect(refused).toContain('ext binary')
   })
 
   test.each(vectorsOfKind('slmp', 'subheader'))('$id: subheader', (vector) => {

@@ -150,7 +150,7 @@ describe('every profile', () => {
 
 describe('what the families are like', () => {
   test.each([
-    ['iq-r', 16, '4E', ['4E', '3E'], 'long', ['short', 'long', 'extendedShort', 'extendedLong']],
+    ['iq-r', 16, '4E', ['4E', '3E', 'ext'], 'long', ['short', 'long', 'extendedShort', 'extendedLong']],
     ['iq-f', 8, '3E', ['3E', '1E'], 'short', ['short', 'extendedShort', 'extendedLong']],
     ['fx5-enet', 8, '3E', ['3E', '1E'], 'short', ['short', 'extendedShort', 'extendedLong']],
     ['q', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
@@ -160,7 +160,7 @@ describe('what the families are like', () => {
     ['nz2gf-etb', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
     ['l', 16, '3E', ['3E', '4E'], 'short', ['short', 'extendedShort']],
     ['fx3', 8, '1E', ['1E'], 'short', ['short', 'long']],
-    ['generic', 16, '3E', ['4E', '3E'], 'short', ['short', 'long', 'extendedShort', 'extendedLong']],
+    ['generic', 16, '3E', ['4E', '3E', 'ext'], 'short', ['short', 'long', 'extendedShort', 'extendedLong']],
   ] as const)('%s: X and Y in radix %i, frame %s of %j, %s of %j', (id, xyRadix, frame, frames, form, forms) => {
     expect(profiles[id]).toMatchObject({ xyRadix, frame, frames, form, forms })
   })
@@ -213,6 +213,7 @@ describe('what the families are like', () => {
     ['iq-r', 'udp', '4E', 5, 7],
     ['iq-r', 'tcp', '4E', 1, 1],
     ['iq-r', 'udp', '3E', 1, 1],
+    ['iq-r', 'udp', 'ext', 1, 1],
     ['q', 'udp', '4E', 1, 58],
     ['q', 'udp', '4E', 10, 6],
     ['iq-f', 'udp', '3E', 1, 1],

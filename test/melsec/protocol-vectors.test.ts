@@ -17,7 +17,7 @@ interface Coded {
 
 function protocolOf({ code, xyRadix, frame }: Coded): MelsecProtocol<Head3e> {
   return new MelsecProtocol({
-    framing: frame3e(frame === '4E' ? '4E' : '3E', code),
+    framing: frame3e(frame === '4E' || frame === 'ext' ? frame : '3E', code),
     head,
     profile: resolveProfile('generic'),
     code,
@@ -70,6 +70,10 @@ describe('devices with an extension, an index or @', () => {
 describe('answers', () => {
   const frames = vectorsOfKind('slmp', 'frame').filter(({ side }) => side === 'response')
 
+  const STATIONS: Readonly<Record<string, string>> = {
+    'cmp-ext-bin-err-elsewhere': 'network 1, station 4660, module I/O 03FF, multidrop 0',
+  }
+
   function answerOf(vector: (typeof frames)[number]) {
     const protocol = protocolOf(vector)
     const scanned = protocol.framing.response.scan(bytesOf(vector), () => undefined)
@@ -89,7 +93,7 @@ describe('answers', () => {
       expect.objectContaining({
         endCode: vector.endCode,
         outcome: 'refused',
-        station: 'network 0, station 255, module I/O 03FF, multidrop 0',
+        station: STATIONS[vector.id] ?? 'network 0, station 255, module I/O 03FF, multidrop 0',
       }),
     )
   })

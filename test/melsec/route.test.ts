@@ -1,10 +1,13 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { RequestError } from '../../src/errors'
+import type { FrameName } from '../../src/melsec/frames'
 import {
+  checkRouteOf,
   completeRoute,
   describeRoute,
   formatRoute,
+  isConnectedStation,
   moduleIoNumbers,
   ownStation,
   parseRoute,
@@ -54,10 +57,19 @@ describe('a route', () => {
     [{ station: 1 }, 'network', 'number of its network'],
     [{ network: 1 }, 'station', 'in network 0'],
     [{ network: 1, station: 0 }, 'station', '1 to 120'],
-    [{ network: 1, station: 121 }, 'station', 'station extension frame'],
-    [{ network: 1, station: 124 }, 'station', 'station extension frame'],
-    [{ network: 1, station: 127 }, 'station', '1 to 120'],
+    [{ network: 1, station: 65_535 }, 'station', '121 to 65534'],
+    [{ network: 1, station: 124 }, 'station', '{ station: 124, extensionStation: 124 }'],
+    [{ network: 1, station: 255 }, 'station', '{ station: 124, extensionStation: 255 }'],
     [{ network: 1, station: Number.NaN }, 'station', '1 to 120'],
+    [{ station: 300 }, 'network', 'Station 300 needs the number of its network'],
+    [{ station: 124, extensionStation: 125 }, 'network', 'Station 124, extension station 125 needs the number'],
+    [{ network: 1, station: 300, extensionStation: 300 }, 'station', 'without an extensionStation, or as'],
+    [{ network: 1, station: 124, extensionStation: 120 }, 'extensionStation', '1 to 120 stand in station'],
+    [{ network: 1, station: 124, extensionStation: 65_536 }, 'extensionStation', '121 to 65534'],
+    [{ network: 1, station: 124, extensionStation: 1.5 }, 'extensionStation', '121 to 65534'],
+    [{ network: 1, station: 5, extensionStation: 5 }, 'extensionStation', 'needs station 124, not 5'],
+    [{ extensionStation: 300 }, 'extensionStation', 'needs station 124, not 255'],
+    [{ network: 1, station: 126, extensionStation: 126 }, 'extensionStation', 'needs station 124, not 126'],
     [{ moduleIo: 0x200 }, 'moduleIo', '03FF'],
     [{ moduleIo: 0x3e4 }, 'moduleIo', '03E3'],
     [{ moduleIo: 0x10000 }, 'moduleIo', '65536'],
@@ -72,10 +84,83 @@ describe('a route', () => {
     expect(error.message).toContain(message)
   })
 
+  test('reaches stations 121 to 65534 by the extension field', () => {
+    for (const station of [121, 123, 127, 254, 256, 65_534]) {
+      const route = { ...ownStation, network: 1, station: 124, extensionStation: station }
+      expect(completeRoute({ network: 1, station })).toEqual(route)
+      expect(completeRoute(route)).toEqual(route)
+    }
+  })
+
+  test('says numbers that mean something else in the extension field only', () => {
+    for (const extensionStation of [124, 125, 126, 255, 0]) {
+      const route = { network: 1, station: 124, extensionStation }
+      expect(completeRoute(route)).toEqual({ ...ownStation, ...route })
+    }
+    expect(completeRoute({ network: 1, station: 125, extensionStation: 0 }).station).toBe(125)
+  })
+
+  test('is the connected station by either field', () => {
+    const own = { ...ownStation, station: 124, extensionStation: 65_535 }
+    expect(completeRoute({ station: 124, extensionStation: 65_535 })).toEqual(own)
+    expect([ownStation, own, { ...ownStation, extensionStation: 0 }].map(isConnectedStation)).toEqual([
+      true,
+      true,
+      true,
+    ])
+    const others = [
+      { network: 1, station: 255 },
+      { network: 1, station: 124, extensionStation: 65_535 },
+      { network: 0, station: 124, extensionStation: 0 },
+      { network: 0, station: 255, extensionStation: 300 },
+    ]
+    expect(others.map(isConnectedStation)).toEqual([false, false, false, false])
+  })
+
   test('a misspelt field is refused, not ignored', () => {
     const error = refusal(() => completeRoute({ stations: 1 } as Partial<Route>))
     expect(error.code).toBe('BAD_OPTION')
     expect(error.message).toContain('stations')
+  })
+})
+
+describe('a frame', () => {
+  const frames: readonly FrameName[] = ['3E', '4E', 'ext', '1E']
+  const takers = (part: Partial<Route>) =>
+    frames.filter((frame) => {
+      try {
+        checkRouteOf(frame, completeRoute(part))
+        return true
+      } catch (error) {
+        expect(error).toBeInstanceOf(RequestError)
+        return false
+      }
+    })
+
+  test('takes the routes it can say without two meanings', () => {
+    expect(takers({})).toEqual(frames)
+    expect(takers({ network: 1, station: 120 })).toEqual(frames)
+    expect(takers({ network: 1, station: 125 })).toEqual(['3E', '4E', '1E'])
+    expect(takers({ network: 1, station: 121 })).toEqual(['ext'])
+    expect(takers({ network: 1, station: 125, extensionStation: 0 })).toEqual(['ext'])
+    expect(takers({ network: 1, station: 124, extensionStation: 126 })).toEqual(['ext'])
+    expect(takers({ station: 124, extensionStation: 65_535 })).toEqual(['ext'])
+  })
+
+  test('refuses the others with what to do', () => {
+    const refused = (frame: FrameName, part: Partial<Route>) => refusal(() => checkRouteOf(frame, completeRoute(part)))
+    expect(refused('3E', { network: 1, station: 121 })).toMatchObject({
+      code: 'OUT_OF_RANGE',
+      field: 'route.station',
+      message: expect.stringContaining(
+        "A 3E frame cannot say station 121: stations above 120 need the station extension frame (frame 'ext'",
+      ),
+    })
+    expect(refused('ext', { network: 1, station: 126 })).toMatchObject({
+      code: 'OUT_OF_RANGE',
+      field: 'route.station',
+      message: expect.stringContaining('Add extensionStation: 0 for the present control or master station.'),
+    })
   })
 })
 
@@ -89,17 +174,25 @@ describe('text', () => {
     ['0/255/3E0', { ...ownStation, moduleIo: 0x3e0 }],
     ['0 / 255 / systemA', { ...ownStation, moduleIo: 0x3d2 }],
     ['1/3/0004/5', { network: 1, station: 3, moduleIo: 4, multidrop: 5 }],
+    ['1/300', { network: 1, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 300 }],
+    ['1/124/3FF/0/125', { network: 1, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 125 }],
+    ['1/125/own/0/0', { network: 1, station: 125, moduleIo: 0x3ff, multidrop: 0, extensionStation: 0 }],
+    ['0/124/own/0/65535', { network: 0, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 65_535 }],
   ])('%s', (text, route) => {
     expect(parseRoute(text)).toEqual(route)
     expect(parseRoute(formatRoute(route))).toEqual(route)
   })
 
-  test.each(['', '1', '1/2/3FF/0/0', 'a/1', '1/x', '1/2/zz', '1/2/3FF/x', '-1/2', '1/2/'])('%j is no route', (text) => {
-    expect(refusal(() => parseRoute(text)).code).toBe('BAD_OPTION')
-  })
+  test.each(['', '1', '1/2/3FF/0/0/0', '1/2/3FF/0/x', 'a/1', '1/x', '1/2/zz', '1/2/3FF/x', '-1/2', '1/2/'])(
+    '%j is no route',
+    (text) => {
+      expect(refusal(() => parseRoute(text)).code).toBe('BAD_OPTION')
+    },
+  )
 
   test('a number that does not exist is out of range', () => {
-    expect(refusal(() => parseRoute('1/121')).code).toBe('OUT_OF_RANGE')
+    expect(refusal(() => parseRoute('1/65535')).code).toBe('OUT_OF_RANGE')
+    expect(refusal(() => parseRoute('1/124/3FF/0/7')).code).toBe('OUT_OF_RANGE')
     expect(refusal(() => parseRoute('1/2/0200')).code).toBe('OUT_OF_RANGE')
   })
 
@@ -108,6 +201,15 @@ describe('text', () => {
     expect(describeRoute({ network: 255, station: 254, moduleIo: 0xffff, multidrop: 200 })).toBe(
       'network 255, station 254, module I/O FFFF, multidrop 200',
     )
+    const station = (part: Partial<Route>) => describeRoute({ ...ownStation, ...part }).split(', module')[0]
+    expect(station({ network: 1, station: 124, extensionStation: 300 })).toBe('network 1, station 300')
+    expect(station({ station: 255, extensionStation: 0 })).toBe('network 0, station 255')
+    expect(station({ network: 1, station: 124 })).toBe('network 1, station 124')
+    for (const extensionStation of [0, 7, 125, 255, 65_535]) {
+      expect(station({ network: 1, station: 124, extensionStation })).toBe(
+        `network 1, station 124, extension station ${extensionStation}`,
+      )
+    }
   })
 
   test('parsing what was formatted gives the same route', () => {
@@ -115,7 +217,20 @@ describe('text', () => {
       fc.constant({ network: 0, station: 255 }),
       fc.record({
         network: fc.integer({ min: 1, max: 239 }),
-        station: fc.oneof(fc.integer({ min: 1, max: 120 }), fc.constantFrom(125, 126)),
+        station: fc.oneof(
+          fc.integer({ min: 1, max: 65_534 }).filter((station) => station !== 124 && station !== 255),
+          fc.constantFrom(125, 126),
+        ),
+      }),
+      fc.record({
+        network: fc.integer({ min: 1, max: 239 }),
+        station: fc.constant(124),
+        extensionStation: fc.oneof(fc.integer({ min: 121, max: 65_534 }), fc.constantFrom(0, 124, 125, 126, 255)),
+      }),
+      fc.record({
+        network: fc.integer({ min: 1, max: 239 }),
+        station: fc.constantFrom(1, 120, 125, 126),
+        extensionStation: fc.constant(0),
       }),
     )
     const module = fc.oneof(

@@ -1,6 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { writerOf } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
+import { frameFacts } from '../../src/melsec/frames'
 import { modelOf } from '../../src/melsec/model-code'
 import { type FrameName, lackOf, type Profile, profileIds, profiles } from '../../src/melsec/profile'
 import { passwordProblem } from '../../src/melsec/remote-password'
@@ -252,7 +253,7 @@ const variants: Variant[] = profileIds.flatMap((id) =>
   // 1E has commands of its own: a-compatible.test.ts.
   profiles[id].frames
     .filter(isSlmp)
-    .flatMap((frame) => (['binary', 'ascii'] as const).map((code) => ({ profile: profiles[id], frame, code }))),
+    .flatMap((frame) => frameFacts[frame].codes.map((code) => ({ profile: profiles[id], frame, code }))),
 )
 
 describe.each(variants)('$profile.id $frame $code', ({ profile, frame, code }) => {

@@ -2,6 +2,7 @@ import { describe, expect, test } from '@jest/globals'
 import * as fc from 'fast-check'
 import { commands } from '../../src/melsec/commands/commands'
 import { frame3e } from '../../src/melsec/frame-3e'
+import { frameFacts } from '../../src/melsec/frames'
 import { profileIds, profiles } from '../../src/melsec/profile'
 import { createPlcSimulator } from '../../src/simulator/server'
 import { manualClock } from '../../src/transport/clock'
@@ -17,18 +18,25 @@ const body = fc
   .map((parts) => Buffer.concat(parts))
 
 describe.each(profileIds.filter((id) => profiles[id].frames.includes('3E')))('%s', (id) => {
-  test.each(CODES)('%s: any bytes are answered by frames or by silence, and the PLC lives on', (code) => {
-    const framing = frame3e('3E', code)
+  const asked = (['3E', 'ext'] as const).flatMap((frame) =>
+    CODES.filter((code) => profiles[id].frames.includes(frame) && frameFacts[frame].codes.includes(code)).map(
+      (code) => [code, frame] as const,
+    ),
+  )
+
+  test.each(asked)('%s %s: any bytes are answered by frames or by silence, and the PLC lives on', (code, frame) => {
+    const framing = frame3e(frame, code)
     const head = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
     const ascii = (content: Buffer) => Buffer.from(content.toString('hex').toUpperCase(), 'latin1')
-    const request = body.map((content) => framing.request.write(head, 0, code === 'ascii' ? ascii(content) : content))
+    const bodies = body.map((content) => (frame === 'ext' ? withSystemArea(content) : content))
+    const request = bodies.map((content) => framing.request.write(head, 0, code === 'ascii' ? ascii(content) : content))
     const damaged = fc.tuple(request, fc.nat(), fc.nat(255)).map(([frame, at, value]) => {
       frame[at % frame.length] = value
       return frame
     })
     void fc.assert(
       fc.property(fc.array(fc.oneof(request, damaged, bytes(60)), { maxLength: 6 }), (chunks) => {
-        const frames = profiles[id].frames.filter((frame) => frame !== '1E')
+        const frames = profiles[id].frames.filter((name) => name !== '1E' && frameFacts[name].codes.includes(code))
         const plc = createPlcSimulator({ profile: id, code, frames, clock: manualClock() })
         for (const kind of ['stream', 'datagram'] as const) {
           let received = Buffer.alloc(0)
@@ -54,11 +62,17 @@ describe.each(profileIds.filter((id) => profiles[id].frames.includes('3E')))('%s
   })
 })
 
-/** Whether the bytes are whole answers, of 3E or 4E, one behind the other. */
+/** Fixed value and system area behind the subcommand. */
+function withSystemArea(body: Buffer): Buffer {
+  return Buffer.concat([body.subarray(0, 4), Buffer.alloc(6), body.subarray(4)])
+}
+
+/** Whether the bytes are whole answers of any frame, one behind the other. */
 function framesIn(received: Buffer, code: 'binary' | 'ascii'): boolean {
   let rest = received
   while (rest.length > 0) {
-    const frame = (rest[0] === 0xd4 || rest.subarray(0, 2).toString() === 'D4' ? '4E' : '3E') as '3E' | '4E'
+    const numbered = rest[0] === 0xd4 || rest.subarray(0, 2).toString() === 'D4' ? '4E' : '3E'
+    const frame = rest[0] === 0xe8 ? 'ext' : numbered
     const scanned = frame3e(frame, code).response.scan(rest, () => undefined)
     if (scanned === undefined) return false
     rest = rest.subarray(scanned.used)

@@ -32,7 +32,7 @@ async function freeUdpPort(): Promise<number> {
   return port
 }
 
-const LINES = ['3E', '4E'].flatMap((frame) => ['binary', 'ascii'].map((code) => `${frame} ${code}`))
+const LINES = ['3E binary', '3E ascii', '4E binary', '4E ascii', 'ext binary']
 
 describe.each(LINES)('over TCP, %s', (line) => {
   test('the client is told what was sent, between its own requests and while it asks nothing', () =>

@@ -10,7 +10,20 @@ import type { DeviceAddress, DeviceExtension, DeviceName } from '../../src/melse
 export type Form = 'short' | 'long' | 'extendedShort' | 'extendedLong'
 export type Side = 'request' | 'response'
 /** The digit of a serial frame is its format. */
-export type Frame = '3E' | '4E' | '1E' | '1C1' | '1C4' | '3C1' | '3C4' | '4C1' | '4C4' | '4C5' | 'JW' | 'JWserial'
+export type Frame =
+  | '3E'
+  | '4E'
+  | 'ext'
+  | '1E'
+  | '1C1'
+  | '1C4'
+  | '3C1'
+  | '3C4'
+  | '4C1'
+  | '4C4'
+  | '4C5'
+  | 'JW'
+  | 'JWserial'
 
 /** What a message holds when it is written as JSON. */
 export type Json = boolean | number | string | readonly Json[] | { readonly [name: string]: Json }
@@ -97,7 +110,7 @@ export interface FrameVector extends Known {
   readonly request?: Message
   /** Of an answer; 0 is success. */
   readonly endCode?: number
-  /** 3E and 4E: what an answer that refuses says about the station and the command. */
+  /** 3E, 4E and station extension: what an answer that refuses says about the station and the command. */
   readonly errorInformation?: Readonly<Record<string, number>>
   /** JW: code of the command, result code of an answer, bytes in front of the message. */
   readonly commandCode?: number
@@ -128,7 +141,7 @@ export interface FieldVector extends Known {
 
 export interface SubheaderVector extends Known {
   readonly kind: 'subheader'
-  readonly frame: '3E' | '4E'
+  readonly frame: '3E' | '4E' | 'ext'
   readonly side: Side
   readonly serial?: number
 }

@@ -12,7 +12,7 @@ export const iqR: Profile = {
   series: 'R00 to R120 CPUs (also EN, P, SF, PSF) by their Ethernet port or RJ71EN71; iQ-L and MELSEC MX behave alike',
   cpu: 'iq-r',
   xyRadix: 16,
-  frames: ['4E', '3E'],
+  frames: ['4E', '3E', 'ext'],
   frame: '4E',
   codes: ['binary', 'ascii'],
   code: 'binary',
@@ -122,11 +122,12 @@ export const iqR: Profile = {
   notes: [
     'SLMP needs an entry in GX Works3: "External Device Configuration" of the Ethernet port, with protocol, port number and "Enable Online Change" for writing.',
     'The built-in Ethernet port reaches its own station only; other networks need an RJ71EN71 or a network module (SLMP reference manual 2.3).',
+    'Only an RJ71GN11-T2 (CC-Link IE TSN) takes and relays the station extension frame, in binary code (SLMP reference manual 2.1, 2.3).',
     'Labels answer only with "Access from External Device" ticked in GX Works3.',
   ],
   sources: {
     xyRadix: 'device table of the SLMP reference manual',
-    frames: '4.1; 4E as default for its serial number',
+    frames: '4.1; 4E as default for its serial number; the station extension frame by an RJ71GN11-T2 only (2.3)',
     forms: '5.2: 0002/0003 for iQ-R, 0000/0001 for compatibility with Q and L',
     extensions: 'appendix 1',
     absentDevices: 'device table of the SLMP reference manual',

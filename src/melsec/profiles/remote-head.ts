@@ -19,6 +19,8 @@ export const remoteHead: Profile = {
   title: 'CC-Link IE Field remote head module',
   series: 'RJ72GF15-T2, by an Ethernet module or through the master station of its network',
   cpu: 'remote-head',
+  // A station extension frame reaches RJ71GN11-T2 only (2.3).
+  frames: ['4E', '3E'],
   doubtful: [
     ...iqR.doubtful,
     ...labelCommandNames.map((name) =>
@@ -50,4 +52,5 @@ export const remoteHead: Profile = {
     'In a redundant system choose the head module by the route: module I/O 03E0 (No. 1) or 03E1 (No. 2), 03D0 control and 03D1 standby system. File commands take 03FF, 03E0 and 03E1 only.',
     'Through a connected station that is not iQ-R it calls itself RCPU, with code 0360.',
   ],
+  sources: { ...iqR.sources, frames: '4.1; 4E as default for its serial number; no station extension frame (2.3)' },
 }
