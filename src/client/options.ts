@@ -17,8 +17,8 @@ import { type Clock, realClock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
 import { checkFormat, type ValueFormat } from '../value/value'
 import { shown } from './given'
-
 import type { LabelFormat } from './label-item'
+
 /** How to reach a MELSEC PLC and how to speak to it. Times in milliseconds. */
 export interface MelsecClientOptions {
   /** Address or name of the PLC. */
@@ -42,12 +42,12 @@ export interface MelsecClientOptions {
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** Digits of ZR in ASCII code; needed for ZR in ASCII code, because the manuals disagree. */
   readonly asciiZr?: 'decimal' | 'hexadecimal'
-  /** How X and Y are numbered in addresses: 8 octal, 16 hexadecimal. Default: the profile's. */
   /**
    * Labels in ASCII code: which word of a value of two or four words comes first. The manual does not say it clearly, so
    * such labels are refused in ASCII code without it (try it on a label whose value you know).
    */
   readonly asciiWordOrder?: 'low-first' | 'high-first'
+  /** How X and Y are numbered in addresses: 8 octal, 16 hexadecimal. Default: the profile's. */
   readonly xyRadix?: 8 | 16
   /** Station to speak to; default: the connected station. Stations above 120 need frame `ext`. */
   readonly route?: Partial<Route>
@@ -105,8 +105,8 @@ export interface Settings {
   readonly allowControl: boolean
   readonly gap: number
   readonly format: ValueFormat
-  readonly first: number
   readonly labelFormat: LabelFormat
+  readonly first: number
   readonly longest: number
   readonly settleGap: number
   readonly clock: Clock
@@ -129,8 +129,8 @@ const NAMES = {
   code: true,
   asciiXy: true,
   asciiZr: true,
-  xyRadix: true,
   asciiWordOrder: true,
+  xyRadix: true,
   route: true,
   monitoringTimer: true,
   timeout: true,
@@ -167,8 +167,8 @@ export function settle(options: MelsecClientOptions): Settings {
   }
   oneOf('asciiXy', options.asciiXy, [undefined, 'octal', 'hexadecimal'])
   oneOf('asciiZr', options.asciiZr, [undefined, 'decimal', 'hexadecimal'])
-  const profile = resolveProfile(profileGiven(options.profile ?? 'generic'), options.profileOverrides ?? undefined)
   oneOf('asciiWordOrder', options.asciiWordOrder, [undefined, 'low-first', 'high-first'])
+  const profile = resolveProfile(profileGiven(options.profile ?? 'generic'), options.profileOverrides ?? undefined)
   const transport = oneOf('transport', options.transport ?? 'tcp', ['tcp', 'udp'])
   const frame = frameOf(profile, options.frame)
   if (options.openTransport === undefined) checkPeer(options)
@@ -191,8 +191,8 @@ export function settle(options: MelsecClientOptions): Settings {
     allowControl: oneOf('allowControl', options.allowControl ?? false, [true, false]),
     gap: whole('gap', options.gap ?? 64, 0, 960),
     format: options.format ?? {},
-    first: whole('reconnect.first', options.reconnect?.first ?? 500, 1, LONGEST),
     labelFormat: labelFormatOf(options),
+    first: whole('reconnect.first', options.reconnect?.first ?? 500, 1, LONGEST),
     longest: whole('reconnect.longest', options.reconnect?.longest ?? 30_000, 1, LONGEST),
     settleGap: whole('settleGap', options.settleGap ?? 50, 0, LONGEST),
     clock: options.clock ?? realClock,
@@ -200,7 +200,6 @@ export function settle(options: MelsecClientOptions): Settings {
   }
 }
 
-/** A misspelt option would be the default, without anybody noticing. */
 /** The PLC says the types of labels and how their words lie; only text has a code that it does not say. */
 function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }: MelsecClientOptions): LabelFormat {
   return {
@@ -210,6 +209,7 @@ function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }
   }
 }
 
+/** A misspelt option would be the default, without anybody noticing. */
 function checkNames(prefix: string, given: object, names: Readonly<Record<string, true>>): void {
   if (typeof given !== 'object' || given === null) {
     const what = prefix === '' ? 'A client' : prefix.slice(0, -1)
