@@ -139,9 +139,13 @@ describe('in English', () => {
     await address.fill('D102')
     await hints.getByText('D102 – D106').waitFor()
     await page.getByRole('button', { name: 'add' }).click()
+    await address.fill('Line1.Name[0]:STRING(10)[3]')
+    await hints.getByText('label Line1.Name[0] · × 3 · must be STRING(10)').waitFor()
     await page.getByRole('textbox', { name: 'Device' }).last().fill('M10')
     await hints.getByText('M10 · internal relay').waitFor()
     await close(page, 'ok')
+    await page.getByRole('textbox', { name: 'Device' }).last().fill('Line1.Speed')
+    await hints.getByText('label Line1.Speed · the PLC says its type').waitFor()
     expect(await property(page, 'read', 'items')).toEqual([
       { name: 'level', address: 'D102', type: 'STRING(10)' },
       { name: 'inlet', address: 'Y20', type: '' },
