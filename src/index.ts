@@ -75,6 +75,7 @@ export {
   VerifyError,
 } from './errors'
 export { explainJwFrame } from './jw/explain-frame'
+export { type ACompatibleCommandName, type ACompatibleCommands, aCompatibleCommands } from './melsec/a-compatible'
 export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/address'
 export type { RequestOf, ResponseOf } from './melsec/command'
 export { type CommandDescription, commandNamed, describeCommand } from './melsec/command-name'

@@ -211,7 +211,7 @@ describe('profiles', () => {
 
   test('can what the README says', () => {
     const rows = new Map(tableAfter('README.md', 'support').map(([what = '', ...cells]) => [what, cells]))
-    const families = ['iq-r', 'iq-f', 'q', 'l'] as const
+    const families = ['iq-r', 'iq-f', 'q', 'l', 'fx3'] as const
     const said = (what: string, answer: (profile: (typeof profiles)[(typeof families)[number]]) => string) =>
       expect([what, rows.get(what)]).toEqual([what, families.map((id) => answer(profiles[id]))])
     const command = (name: keyof typeof commands) => (profile: (typeof profiles)['q']) =>

@@ -9,6 +9,8 @@ const IMPORT = /^import (\{[^}]*\}) from '([^']+)'$/gm
 
 /** Where the reader's PLC would be. */
 const READERS_PORT = 5010
+/** And an FX3, which speaks 1E only. */
+const READERS_FX3_PORT = 5551
 
 /** Opens simulated PLCs and gives a program the package with its addresses led to them. */
 export class Bench {
@@ -25,6 +27,9 @@ export class Bench {
     await simulator.listen()
     fill(simulator)
     this.#simulators.set(simulator, READERS_PORT)
+    const fx3 = plc.createPlcSimulator({ profile: 'fx3' })
+    await fx3.listen()
+    this.#simulators.set(fx3, READERS_FX3_PORT)
   }
 
   async close(): Promise<void> {
