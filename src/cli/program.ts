@@ -4,14 +4,19 @@ import { memoryCommand, moduleCommand } from './buffer-memory'
 import type { MakeCommand, Run } from './command'
 import { commandsCommand } from './commands'
 import { controlCommand } from './control'
+import { cpCommand } from './cp'
 import { decodeCommand } from './decode'
 import { exitCodeHelp, exitCodes } from './exit-code'
 import { explainCommand } from './explain'
+import { getCommand } from './get'
 import { identifyCommand } from './identify'
 import { listenCommand } from './listen'
+import { lsCommand } from './ls'
 import { profilesCommand } from './profiles'
+import { putCommand } from './put'
 import { readCommand } from './read'
 import { requestCommand } from './request'
+import { rmCommand } from './rm'
 import { simulateCommand } from './simulate'
 import type { Terminal } from './terminal'
 import { writeCommand } from './write'
@@ -25,6 +30,11 @@ const COMMANDS: readonly MakeCommand[] = [
   commandsCommand,
   memoryCommand,
   moduleCommand,
+  lsCommand,
+  getCommand,
+  putCommand,
+  cpCommand,
+  rmCommand,
   listenCommand,
   simulateCommand,
   decodeCommand,

@@ -1,11 +1,12 @@
 // How the requests of a file transfer are sent: one after another, each with its own deadline.
+import { ClosedError } from '../errors'
 import type { Exchange } from '../link/link'
 import type { Head3e } from '../melsec/frame-3e'
 import type { ClientProtocol } from '../melsec/protocol'
-import type { CallOptions } from './call'
 import type { Connection } from './connection'
 import { Deadline } from './deadline'
 import type { FileParts } from './files'
+import type { OpenFile } from './open-file'
 import type { MelsecClientOptions, Settings } from './options'
 
 /** What the client lends. */
@@ -19,22 +20,30 @@ interface Lent {
 }
 
 export function filePartsOf({ settings, options, protocol, connection, permit }: Lent): FileParts {
+  const open = new Set<OpenFile>()
   return {
     profile: settings.profile,
     unusable: unusable(settings, options.localPort),
     permitWrite: (title) => permit('write', title),
-    calls: (call: CallOptions) => ({
+    open,
+    calls: ({ signal, ...unaborted }) => ({
+      open,
       connection: () => connection.generation,
-      send: async (command, message, { onlyOn, unaborted } = {}) => {
+      send: async (command, message, how = {}) => {
         permit(command.effect, command.title)
         const exchange = protocol.exchange(command, message)
-        const { signal: _, ...rest } = call
-        const deadline = new Deadline(settings.clock, unaborted === true ? rest : call, settings.timeout)
-        const bound = onlyOn === undefined ? {} : { onlyOn }
+        if (how.unaborted === 'onceSent' && signal?.aborted === true) throw aborted(command.title, signal)
+        const heard = how.unaborted !== undefined || signal === undefined ? unaborted : { ...unaborted, signal }
+        const deadline = new Deadline(settings.clock, heard, settings.timeout)
+        const bound = how.onlyOn === undefined ? {} : { onlyOn: how.onlyOn }
         return connection.request(exchange, { ...deadline.options(command.title), ...bound })
       },
     }),
   }
+}
+
+function aborted(title: string, { reason }: AbortSignal): ClosedError {
+  return new ClosedError('ABORTED', `${title} was aborted before it was sent.`, 'notSent', reason)
 }
 
 /** The PLC locks an open file for the external device that opened it. */

@@ -6,7 +6,7 @@ import { type FileEntry, listDirectory, statOf } from './file-list'
 import { type FilePlace, inside } from './file-place'
 import type { FileProgress } from './file-read'
 import { shown } from './given'
-import { alsoAfter, chunksOf, type FileCalls, type OpenFile, withOpenFile } from './open-file'
+import { alsoAfter, chunksOf, type FileCalls, note, type OpenFile, withOpenFile } from './open-file'
 import { tell } from './tell'
 
 export type WriteMode = 'new' | 'replace' | 'overwrite'
@@ -95,7 +95,7 @@ async function create(calls: FileCalls, place: FilePlace, writing: Writing): Pro
     await withOpenFile(calls, place, 'write', password, (file) => fill(file, place, writing))
   } catch (error) {
     const what = `${place.text} is unfinished and could not be removed`
-    await alsoAfter(error, what, () => remove(calls, { place, password }, { unaborted: true }))
+    await alsoAfter(error, what, () => remove(calls, { place, password }, { unaborted: 'always' }))
     throw error
   }
 }
@@ -132,7 +132,7 @@ async function byWayOfAnother(calls: FileCalls, place: FilePlace, writing: Writi
     await copyFile(calls, temporary, { place, password })
   } catch (error) {
     // It may be the only copy by now, so it stays.
-    if (error instanceof Error) error.message = `${error.message} The new content is in ${temporary.place.text}.`
+    note(error, `The new content is in ${temporary.place.text}.`)
     throw error
   }
   await remove(calls, temporary)
@@ -162,7 +162,7 @@ export async function copyFile(calls: FileCalls, from: ProtectedFile, to: Protec
 async function remove(
   calls: FileCalls,
   { place, password }: ProtectedFile,
-  options: { readonly unaborted?: true } = {},
+  options: { readonly unaborted?: 'always' } = {},
 ): Promise<void> {
   await calls.send(commands.deleteFile, { password, drive: place.drive, name: place.path }, options)
 }

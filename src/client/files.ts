@@ -10,7 +10,7 @@ import { type FilePath, type FilePlace, fileOf, filePlaceOf } from './file-place
 import { type FileProgress, readChunks } from './file-read'
 import { contentOf, copyFile, type FileData, type WriteMode, writeFile } from './file-write'
 import { checkBooleans, shown } from './given'
-import type { FileCalls } from './open-file'
+import type { FileCalls, OpenFile } from './open-file'
 
 export type { FileEntry } from './file-list'
 export type { FilePath } from './file-place'
@@ -98,6 +98,8 @@ export interface FileParts {
   /** @throws RequestError NOT_PERMITTED */
   readonly permitWrite: (title: string) => void
   readonly calls: (options: CallOptions) => FileCalls
+  /** What is open now. */
+  readonly open: ReadonlySet<OpenFile>
 }
 
 /** Largest file that is read into memory without being asked for, bytes. */
@@ -113,11 +115,7 @@ interface Begun {
   readonly password: string
 }
 
-export function filesOf(parts: FileParts): Files {
-  return new FileAccess(parts)
-}
-
-class FileAccess implements Files {
+export class FileAccess implements Files {
   readonly #parts: FileParts
 
   constructor(parts: FileParts) {
@@ -199,6 +197,13 @@ class FileAccess implements Files {
     checkBooleans(options, [])
     // With this close type the number of the pointer does not matter.
     await this.#parts.calls(options).send(commands.closeFile, { pointer: 0, closeType: 1 })
+  }
+
+  /** Before the client is closed: what is open would stay locked in the PLC. Undefined when nothing is. */
+  release(): Promise<unknown> | undefined {
+    const { open } = this.#parts
+    // Whatever becomes of it, the connection ends now.
+    return open.size === 0 ? undefined : Promise.allSettled([...open].map((file) => file.close()))
   }
 
   #begin(file: FilePath, options: FileOptions): Begun {

@@ -18,7 +18,7 @@ import { type Control, controlOf, type Identity, identify, type Send, selfTestOf
 import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
 import { filePartsOf } from './file-calls'
-import { type Files, filesOf } from './files'
+import { FileAccess, type Files } from './files'
 import { checkRequest, isItem, isList, namesOf, namesOfItems } from './given'
 import { ItemAccess } from './item-access'
 import type { ItemExplanation } from './label-explain'
@@ -46,8 +46,8 @@ export type {
   WritePlan,
 } from './client-types'
 
-/** ms that closing may wait for the PLC to lock itself: over TCP the end of the connection locks it, too. */
-const LOCK_TIME = 500
+/** ms that closing may wait for the PLC to close open files, and to lock itself: over TCP the end of the connection does. */
+const CLOSING_TIME = 500
 
 const EVENTS = {
   state: true,
@@ -74,6 +74,7 @@ export class MelsecClient {
   readonly #registration: Registration
   readonly #send: Send
   readonly #items: ItemAccess
+  readonly #files: FileAccess
   readonly #password: RemotePassword
   /** As given, without the password. */
   readonly options: Omit<MelsecClientOptions, 'password'>
@@ -142,7 +143,7 @@ export class MelsecClient {
       permit: (effect, title) => this.#permit(effect, title),
     })
     this.memory = memoryOf(this.#send, settings.route)
-    this.files = filesOf(
+    this.#files = new FileAccess(
       filePartsOf({
         settings,
         options,
@@ -151,6 +152,7 @@ export class MelsecClient {
         permit: (effect, title) => this.#permit(effect, title),
       }),
     )
+    this.files = this.#files
   }
 
   /** The family of PLCs it speaks to, with the overrides merged in. */
@@ -205,9 +207,17 @@ export class MelsecClient {
 
   /** Ends the connection and every call under way. The client cannot be used again. */
   async close(): Promise<void> {
+    const released = this.#files.release()
+    if (released !== undefined) await this.#soon(released)
     const lock = this.#password.lock()
     if (lock === undefined) this.#connection.close()
-    else await this.#connection.finish(lock, LOCK_TIME)
+    else await this.#connection.finish(lock, CLOSING_TIME)
+  }
+
+  /** A courtesy to the PLC: whether it comes to its end or not, nobody waits long for it. */
+  #soon(work: Promise<unknown>): Promise<void> {
+    const deadline = new Deadline(this.#settings.clock, {}, CLOSING_TIME)
+    return deadline.wait(work, 'Closing').catch(() => {})
   }
 
   /**

@@ -1,5 +1,5 @@
 // A file while it is open in the PLC: it is locked there until it is closed, so it is closed whatever happens.
-import { ProtocolError, RequestError } from '../errors'
+import { ClosedError, ProtocolError, RequestError } from '../errors'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import type { FilePlace } from './file-place'
@@ -9,8 +9,8 @@ type FileCommand = Command<(typeof commands)[keyof typeof commands], string>
 export interface FileSend {
   /** Number of the connection it belongs to. */
   readonly onlyOn?: number
-  /** Sent although the call was aborted. */
-  readonly unaborted?: true
+  /** `always`: sent although the call was aborted; `onceSent`: its answer is waited for whatever happens meanwhile. */
+  readonly unaborted?: 'always' | 'onceSent'
 }
 
 /** How one call sends its requests. */
@@ -18,6 +18,8 @@ export interface FileCalls {
   send<C extends FileCommand>(command: C, message: RequestOf<C>, options?: FileSend): Promise<ResponseOf<C>>
   /** Number of the connection that is up. */
   connection(): number
+  /** Files that are open over this client: they are closed before it is. */
+  readonly open: Set<OpenFile>
 }
 
 /** Bytes of one request (SLMP reference manual 5.8, Read File and Write File). Offsets are multiples of it: even, and of 4. */
@@ -50,13 +52,22 @@ export function notClosed(place: FilePlace): string {
   return `${place.text} could not be closed, and may be locked in the PLC until closeAll() or its restart`
 }
 
+/** Also errors of another realm, as the sandbox of a Node-RED function node makes them. */
+function hasMessage(error: unknown): error is { message: string } {
+  return typeof error === 'object' && error !== null && 'message' in error && typeof error.message === 'string'
+}
+
+/** Says more in an error. */
+export function note(error: unknown, text: string): void {
+  if (hasMessage(error)) error.message = `${error.message} ${text}`
+}
+
 /** Does what must follow an error; when that fails too, the error says so. */
 export async function alsoAfter(error: unknown, what: string, run: () => Promise<void>): Promise<void> {
   try {
     await run()
   } catch (second) {
-    if (!(error instanceof Error && second instanceof Error)) throw second
-    error.message = `${error.message} ${what}: ${second.message}`
+    note(error, `${what}: ${hasMessage(second) ? second.message : String(second)}`)
   }
 }
 
@@ -66,6 +77,7 @@ export class OpenFile {
   readonly #pointer: number
   /** The pointer means this file on this connection only. */
   readonly #connection: number
+  #closing: Promise<unknown> | undefined
 
   private constructor(calls: FileCalls, place: FilePlace, pointer: number) {
     this.#calls = calls
@@ -76,8 +88,12 @@ export class OpenFile {
 
   static async open(calls: FileCalls, place: FilePlace, mode: keyof typeof MODES, password: string): Promise<OpenFile> {
     const { drive, path: name } = place
-    const { pointer } = await calls.send(commands.openFile, { password, mode: MODES[mode], drive, name })
-    return new OpenFile(calls, place, pointer)
+    const message = { password, mode: MODES[mode], drive, name }
+    // Given up on the way it would be open and nobody knew its pointer.
+    const { pointer } = await calls.send(commands.openFile, message, { unaborted: 'onceSent' })
+    const file = new OpenFile(calls, place, pointer)
+    calls.open.add(file)
+    return file
   }
 
   /** All of it, in chunks of at most 1920 bytes. @throws ProtocolError when the PLC sends less than its size */
@@ -103,10 +119,22 @@ export class OpenFile {
 
   /** Not aborted with the rest: an aborted transfer must not leave the file locked. */
   async close(): Promise<void> {
-    await this.#send(commands.closeFile, { pointer: this.#pointer }, { unaborted: true })
+    const { open } = this.#calls
+    this.#closing ??= this.#request(commands.closeFile, { pointer: this.#pointer }, { unaborted: 'always' })
+    try {
+      await this.#closing
+    } finally {
+      open.delete(this)
+    }
   }
 
-  #send<C extends FileCommand>(command: C, message: RequestOf<C>, options: FileSend = {}): Promise<ResponseOf<C>> {
+  #send<C extends FileCommand>(command: C, message: RequestOf<C>): Promise<ResponseOf<C>> {
+    if (this.#closing === undefined) return this.#request(command, message)
+    const text = `${command.title} was not sent: ${this.#place.text} is closed, because the client is.`
+    return Promise.reject(new ClosedError('CLOSED', text))
+  }
+
+  #request<C extends FileCommand>(command: C, message: RequestOf<C>, options: FileSend = {}): Promise<ResponseOf<C>> {
     return this.#calls.send(command, message, { ...options, onlyOn: this.#connection })
   }
 }

@@ -306,6 +306,28 @@ describe('whatever happens, the file is closed', () => {
     expect(simulator.files.open).toEqual([])
   })
 
+  test('when the client is closed', async () => {
+    const { plc, simulator } = await join('iq-r')
+    simulator.files.write(4, 'A.CSV', bytes(50_000))
+    let closed: Promise<void> | undefined
+    const error = await thrown(plc.files.read('4:A.CSV', { onProgress: () => (closed ??= plc.close()) }))
+    expect(error).toMatchObject({ code: 'CLOSED' })
+    await closed
+    expect(simulator.files.open).toEqual([])
+  })
+
+  test('when it is aborted while it is being opened', async () => {
+    const { plc, simulator } = await join('iq-r')
+    const controller = new AbortController()
+    plc.on('trace', ({ direction }) => {
+      if (direction === 'sent' && plc.statistics.requests === 1) controller.abort()
+    })
+    const error = await thrown(plc.files.read('4:LINE.CSV', { signal: controller.signal }))
+    expect(error).toMatchObject({ code: 'ABORTED' })
+    expect(simulator.files.open).toEqual([])
+    expect(plc.statistics.answered).toBeGreaterThanOrEqual(2)
+  })
+
   test('when it is aborted', async () => {
     const { plc, simulator } = await join('iq-r')
     simulator.files.write(4, 'A.CSV', bytes(50_000))
