@@ -34,7 +34,7 @@ function check(body: StoredSettings, texts: Texts): Reply {
 }
 
 /** A client that never connects: it knows how addresses of this PLC are written, and nothing of where it is. */
-function speaker(given: StoredSettings, texts: Texts): MelsecClient | { readonly problem: string } {
+export function speaker(given: StoredSettings, texts: Texts): MelsecClient | { readonly problem: string } {
   try {
     // What decides about addresses is chosen from lists, so it holds no variables; the rest does not matter here.
     const { profile, frame, code, asciiXy, asciiZr, xyRadix } = settingsOf(given, { texts, resolve: (text) => text })

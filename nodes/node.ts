@@ -38,13 +38,17 @@ export interface UserType {
    * @throws NodeFailure when they are wrong; every message then ends with it.
    */
   readonly prepare: (settings: StoredSettings, tools: Tools) => Work
+  /** What the editor knows of the library, so that nothing is written twice. Node-RED wants names such as `melsecJwReadTypes`. */
+  readonly editorSettings?: Readonly<Record<string, { readonly value: unknown; readonly exportable: true }>>
 }
 
 export function registerUser(RED: NodeAPI, type: UserType): void {
-  RED.nodes.registerType(type.type, function (this: Node, stored: NodeDef) {
+  const { editorSettings } = type
+  function construct(this: Node, stored: NodeDef): void {
     RED.nodes.createNode(this, stored)
     start(RED, this, type, { ...stored })
-  })
+  }
+  RED.nodes.registerType(type.type, construct, editorSettings === undefined ? {} : { settings: { ...editorSettings } })
 }
 
 /** Settings at the version the node reads. @throws NodeFailure when a newer version of the package made them. */

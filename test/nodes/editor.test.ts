@@ -10,7 +10,7 @@ import { devices, type PlcSimulator, profileIds, typeNames } from '../../src/ind
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
-import { connectionTo, controlNode, portOf, readNode, startPlc, writeNode } from './flow'
+import { connectionTo, controlNode, portOf, readNode, requestNode, startPlc, writeNode } from './flow'
 
 const LANGUAGES = ['en-US', 'ja', 'zh-CN', 'zh-TW'] as const
 
@@ -27,6 +27,7 @@ beforeAll(async () => {
     readNode({ level: 'D100:REAL', inlet: 'Y20' }, { x: 200, y: 100 }),
     writeNode({ valuesType: 'rows', items: [row], x: 200, y: 200 }),
     controlNode({ commandType: 'command', command: 'stop', x: 200, y: 300 }),
+    requestNode({ command: 'readWords', message: '{"head":"D100","points":1}', messageType: 'json', x: 200, y: 400 }),
   ])
 }, 90_000)
 
@@ -107,7 +108,9 @@ describe('in English', () => {
     const labels = await category.locator('.red-ui-palette-label').allTextContents()
     expect(labels.map((label) => label.replaceAll(/\s+/g, ' ')).sort()).toEqual([
       'plc control',
+      'plc ondemand',
       'plc read',
+      'plc request',
       'plc write',
     ])
     await picture(page, 'palette')
@@ -115,11 +118,11 @@ describe('in English', () => {
 
   test('a node without a name is called by its first item', async () => {
     const labels = await page.locator('.red-ui-flow-node-label-text').allTextContents()
-    expect(labels).toEqual(expect.arrayContaining(['level +1', 'D112', 'remote STOP']))
+    expect(labels).toEqual(expect.arrayContaining(['level +1', 'D112', 'remote STOP', 'Read (word units)']))
   })
 
   test('the statuses of the nodes are in words', async () => {
-    await expect(page.locator('.red-ui-flow-node-status-label', { hasText: 'connected' }).count()).resolves.toBe(3)
+    await expect(page.locator('.red-ui-flow-node-status-label', { hasText: 'connected' }).count()).resolves.toBe(4)
   })
 
   test('the read dialog says what each row will read, while it is typed', async () => {
@@ -136,16 +139,16 @@ describe('in English', () => {
     await page.locator('.melsec-jw-hint.melsec-jw-bad').waitFor()
     expect(await address.getAttribute('aria-invalid')).toBe('true')
     await picture(page, 'read')
+    await address.fill('Line1.Name[0]:STRING(10)[3]')
+    await hints.getByText('label Line1.Name[0] · × 3 · must be STRING(10)').waitFor()
     await address.fill('D102')
     await hints.getByText('D102 – D106').waitFor()
     await page.getByRole('button', { name: 'add' }).click()
-    await address.fill('Line1.Name[0]:STRING(10)[3]')
-    await hints.getByText('label Line1.Name[0] · × 3 · must be STRING(10)').waitFor()
+    await page.getByRole('textbox', { name: 'Device' }).last().fill('Line1.Speed')
+    await hints.getByText('label Line1.Speed · the PLC says its type').waitFor()
     await page.getByRole('textbox', { name: 'Device' }).last().fill('M10')
     await hints.getByText('M10 · internal relay').waitFor()
     await close(page, 'ok')
-    await page.getByRole('textbox', { name: 'Device' }).last().fill('Line1.Speed')
-    await hints.getByText('label Line1.Speed · the PLC says its type').waitFor()
     expect(await property(page, 'read', 'items')).toEqual([
       { name: 'level', address: 'D102', type: 'STRING(10)' },
       { name: 'inlet', address: 'Y20', type: '' },
@@ -192,6 +195,58 @@ describe('in English', () => {
       'stop',
       'command',
     ])
+  })
+
+  test('the request dialog shows the fields of a command, puts an example, and checks the message', async () => {
+    await edit(page, 'request')
+    const checked = page.locator('#melsec-jw-checked')
+    await checked.getByText('This PLC can be asked so.').waitFor()
+    const fields = page.locator('#melsec-jw-fields')
+    expect(await fields.innerText()).toMatch(/^head\na device such as "D100".*\npoints\na whole number from 1 to 65535/)
+    await page.locator('#node-input-command').selectOption('writeRandomBits')
+    await page.getByText('This connection does not allow writing.').waitFor()
+    expect(await fields.innerText()).toContain('bits[].device')
+    expect(await page.locator('#node-input-message').inputValue()).toBe('{"bits":[{"device":"M100","value":true}]}')
+    await page.locator('#melsec-jw-example').click()
+    await checked.getByText('This PLC can be asked so.').waitFor()
+    await picture(page, 'request')
+    await close(page, 'ok')
+    expect([await property(page, 'request', 'command'), await property(page, 'request', 'message')]).toEqual([
+      'writeRandomBits',
+      '{"bits":[{"device":"M100","value":true}]}',
+    ])
+  })
+
+  test('the request dialog says what is wrong, and keeps what was typed when another command is chosen', async () => {
+    await edit(page, 'request')
+    await page.evaluate(() => {
+      const input = $('#node-input-message') as unknown as { typedInput(name: string, value: string): void }
+      input.typedInput('value', '{"bits":[]}')
+    })
+    await page.locator('#melsec-jw-checked.melsec-jw-bad').getByText('bits has 0 element(s)').waitFor()
+    await page.locator('#node-input-command').selectOption('readBits')
+    expect(await page.locator('#node-input-message').inputValue()).toBe('{"bits":[]}')
+    await page.locator('#melsec-jw-checked.melsec-jw-bad').getByText('it has head, points').waitFor()
+    await close(page, 'cancel')
+  })
+
+  test('the request dialog reaches the buffer memory of modules', async () => {
+    await edit(page, 'request')
+    await page.locator('#node-input-mode').selectOption('module')
+    await page.locator('#node-input-model').selectOption('Q62DA')
+    await page.locator('#node-input-startIo').fill('0030')
+    expect(await page.locator('#node-input-slot0').isVisible()).toBe(false)
+    await picture(page, 'request module')
+    await page.locator('#node-input-model').selectOption('QD62')
+    await page.locator('#node-input-slot0').selectOption('1')
+    await close(page, 'ok')
+    await edit(page, 'request')
+    expect(await page.locator('#node-input-slot0').inputValue()).toBe('1')
+    await page.locator('#node-input-model').selectOption('Q62DA')
+    expect(await page.locator('#node-input-slot0').inputValue()).toBe('')
+    await close(page, 'ok')
+    const stored = ['mode', 'model', 'startIo', 'slot0'].map((name) => property(page, 'request', name))
+    expect(await Promise.all(stored)).toEqual(['module', 'Q62DA', '0030', ''])
   })
 
   test('the test button shows the CPU and the round trip, and offers its series', async () => {
@@ -244,6 +299,7 @@ describe('in English', () => {
       ['read', 'an item that fails makes the message fail'],
       ['write', 'A write is never repeated'],
       ['control', 'Remote control of the CPU'],
+      ['request', 'Any command of the manuals'],
       ['connection', 'How to reach a Mitsubishi MELSEC PLC'],
     ]) {
       const help = await page.evaluate((name) => $(`script[data-help-name="melsec-jw-${name}"]`).text(), type)
@@ -257,7 +313,7 @@ declare const $: (selector: string) => { text(): string }
 
 /** Every dialog, held against missing texts and texts that are too long for it. */
 async function lookThrough(page: Page, language: string): Promise<void> {
-  for (const id of ['read', 'write', 'control', 'plc']) {
+  for (const id of ['read', 'write', 'control', 'request', 'plc']) {
     await edit(page, id)
     const form = page.locator('.red-ui-tray-body .melsec-jw-form').last()
     const text = (await form.innerText()) + (await form.locator('option').allTextContents()).join('\n')

@@ -16,6 +16,7 @@ let plc: PlcSimulator
 beforeAll(async () => {
   // What `--label` of the expectations' `simulate` makes.
   plc = await startPlc({
+    extensions: { modules: [{ unit: 3, points: 4096, model: 'Q62DA' }] },
     labels: {
       'Line1.Speed': { type: 'REAL', value: 12.5 },
       'Line1.Ready': { type: 'BOOL', value: true },

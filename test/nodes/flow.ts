@@ -50,6 +50,10 @@ export function ondemandNode(more: Settings = {}): FlowNode {
   return user('ondemand', 'melsec-jw-ondemand', { output: 'words', topic: '', ...more })
 }
 
+export function requestNode(more: Settings = {}): FlowNode {
+  return user('request', 'melsec-jw-request', more)
+}
+
 export function catchNode(): FlowNode {
   return { id: 'catch', type: 'catch', scope: null, uncaught: false, wires: [[]] }
 }
