@@ -16,6 +16,12 @@ const plc = createMelsecClient({ host, port: Number(port), profile: PLC_PROFILE 
 const stop = new AbortController()
 for (const signal of ['SIGINT', 'SIGTERM']) process.once(signal, () => stop.abort())
 
+// `node watch.mjs | head` closes the pipe early: that is no failure.
+process.stdout.on('error', (error) => {
+  if (error.code !== 'EPIPE') throw error
+  stop.abort()
+})
+
 const print = (text) => console.log(`${new Date().toISOString()}  ${text}`)
 
 // The client reconnects by itself; this only tells about it.

@@ -3,6 +3,7 @@ import {
   type DeviceExplanation,
   type ItemExplanation,
   type MelsecClient,
+  type PlcError,
   type ReadValue,
   RequestError,
   type WriteEntry,
@@ -19,7 +20,7 @@ import {
   withClient,
 } from './connection-options'
 import { exitOfResults } from './exit-code'
-import { errorData, itemErrorText, json, table, valueText } from './output'
+import { errorData, errorText, itemErrorText, json, table, valueText } from './output'
 import { refusalOf, type Terminal } from './terminal'
 import { typedValue } from './typed-value'
 
@@ -161,12 +162,35 @@ function show(
   results: readonly WriteResult[],
 ): void {
   if (options.json === true) {
-    terminal.out(
-      json({ results: results.map((result) => (result.ok ? result : { ...result, error: errorData(result.error) })) }),
-    )
+    terminal.out(json({ results: results.map((result) => resultData(results, result)) }))
   } else {
     const written = assignments.filter((_, i) => results[i]?.ok === true)
     if (written.length > 0) terminal.out(table(written.map(({ item, value }) => [item, `= ${valueText(value)}`])))
   }
-  for (const result of results) if (!result.ok) terminal.error(itemErrorText(result.item, result.error))
+  const told = new Set<PlcError>()
+  for (const result of results) {
+    if (result.ok) continue
+    const { item, error } = result
+    const together = sharing(results, result)
+    if (together.length === 0) terminal.error(itemErrorText(item, error))
+    else
+      terminal.error(
+        `${item}: not written: sent together with ${together.join(', ')}, and the PLC does not say which it refuses.`,
+      )
+    if (together.length > 0 && !told.has(error)) terminal.error(errorText(error))
+    told.add(error)
+  }
+}
+
+function resultData(results: readonly WriteResult[], result: WriteResult): unknown {
+  if (result.ok) return result
+  const together = sharing(results, result)
+  return { ...result, error: errorData(result.error), ...(together.length === 0 ? {} : { together }) }
+}
+
+/** Items that were refused in the same request: one of them is to blame, and which one no end code says. */
+function sharing(results: readonly WriteResult[], refused: WriteResult & { readonly ok: false }): readonly string[] {
+  if (refused.error.outcome !== 'refused') return []
+  const same = results.filter((result) => result !== refused && !result.ok && result.error === refused.error)
+  return same.map(({ item }) => item)
 }

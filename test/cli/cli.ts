@@ -89,6 +89,11 @@ export class Running {
     return { code: this.#child.exitCode, out: this.#out, err: this.#err }
   }
 
+  /** As `| head` does when it has seen enough. */
+  closeOutput(): void {
+    this.#child.stdout?.destroy()
+  }
+
   /** As Ctrl-C does. */
   interrupt(): Promise<Ended> {
     this.#child.kill('SIGINT')

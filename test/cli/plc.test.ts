@@ -274,6 +274,29 @@ describe('write', () => {
     expect(ended.err).toMatch(/4031/)
     expectNoStack(ended)
   })
+
+  test('what the PLC refuses together: no item is said to be the wrong one', async () => {
+    const ended = await at('write', 'D0=1', 'D99999=2', '--yes')
+    expect(ended).toMatchObject({ code: 3, out: '' })
+    const lines = ended.err.trim().split('\n')
+    expect(lines).toEqual([
+      'D0: not written: sent together with D99999, and the PLC does not say which it refuses.',
+      expect.stringMatching(/^Write Random .* 4031: /),
+      'D99999: not written: sent together with D0, and the PLC does not say which it refuses.',
+    ])
+    expect(plc.read('D0')).toBe(0)
+    expect(parsed(await at('write', 'D0=1', 'D99999=2', '--yes', '--json'))).toMatchObject({
+      results: [
+        { item: 'D0', ok: false, error: { endCode: 0x4031 }, together: ['D99999'] },
+        { item: 'D99999', ok: false, error: { endCode: 0x4031 }, together: ['D0'] },
+      ],
+    })
+    // Sent by itself, it is told by itself.
+    const apart = await at('write', 'D0=1', 'M99999999=ON', '--yes')
+    expect(apart.out).toMatch(/^D0 += 1$/m)
+    expect(apart.err).not.toMatch(/together/)
+    expect(apart.err).toMatch(/M99999999/)
+  })
 })
 
 describe('control', () => {

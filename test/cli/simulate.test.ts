@@ -143,6 +143,21 @@ describe('example programs', () => {
     expect(err).toMatch(/^CONNECT_FAILED \(notSent\): /)
   })
 
+  test('watch ends quietly when nobody reads what it prints', async () => {
+    const simulator = createPlcSimulator({ profile: 'iq-r' })
+    await simulator.listen()
+    const watch = example('watch.mjs', '127.0.0.1', String(simulator.tcp?.port), 'D0')
+    try {
+      await watch.says(/ D0 +0\n/)
+      watch.closeOutput()
+      simulator.write('D0', 1)
+      const { code, err } = await watch.ended()
+      expect([code, err]).toEqual([0, ''])
+    } finally {
+      await simulator.close()
+    }
+  })
+
   test('watch prints what changes, and reconnects', async () => {
     const simulator = createPlcSimulator({ profile: 'iq-r', restartTime: 0 })
     await simulator.listen()
