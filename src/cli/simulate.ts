@@ -13,6 +13,7 @@ import {
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addCodeOptions, frameOption, jsonOption, profileOption, simulatedPassword, whole } from './connection-options'
+import { drivesOf } from './drive-option'
 import { endCodeText } from './end-code'
 import { exitCodes } from './exit-code'
 import { faultHelp, faultOf } from './fault-option'
@@ -47,6 +48,7 @@ interface SimulateOptions {
   readonly asciiZr?: 'decimal' | 'hexadecimal'
   readonly plant?: boolean
   readonly fault: readonly string[]
+  readonly drive: readonly string[]
   readonly scanTime?: number
   readonly maxConnections?: number
   readonly resetAllowed?: boolean
@@ -107,6 +109,11 @@ export const simulateCommand: MakeCommand = (run) => {
         .argParser(collect),
     )
     .option('--labels <file>', 'global labels: a JSON object by name, of { type, dimensions, value }')
+    .addOption(
+      new Option('--drive <number=folder>', 'a folder as a drive with files, e.g. 2=./card; may be repeated')
+        .default([], 'a few files in memory')
+        .argParser(collect),
+    )
     .option('--password', 'lock the port: a remote password, from the environment (MELSEC_JW_PASSWORD) or asked for')
     .addOption(
       new Option('--password-attempts <number>', 'wrong passwords in a row that lock out').argParser(whole(1, 1000)),
@@ -184,6 +191,7 @@ function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
     ...(lockOutTime === undefined ? {} : { lockOutTime }),
     ...(modules.length === 0 ? {} : { extensions: { modules } }),
     ...(bufferMemory === undefined ? {} : { bufferMemory }),
+    drives: drivesOf(options.drive),
   }
 }
 

@@ -1,6 +1,9 @@
 /** `melsec-jw simulate`, and the example programs against it. */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { join } from 'node:path'
 import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, createPlcSimulator, type MelsecClient } from '../../src/index'
+import { commands, createMelsecClient, createPlcSimulator, type MelsecClient } from '../../src/index'
 import { build, example, type Running, run, start, startWith } from './cli'
 import { runHere } from './in-process'
 
@@ -52,6 +55,26 @@ describe('simulate', () => {
     await program.says(/D100:REAL +level +Level \(l\)/)
     await program.says(/D110:REAL .* may be written/)
     expect(await clientOf(port).read('D130:STRING(20)')).toBe('Apple juice')
+  })
+
+  test('has a folder as a drive', async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'drive-'))
+    writeFileSync(join(folder, 'LINE.CSV'), 'A,15\r\n')
+    const { program, port } = await simulate('--drive', `2=${folder}`)
+    const { files } = await clientOf(port).request(commands.readDirectory, { drive: 2, start: 1, count: 36 })
+    expect(files.map(({ name, size }) => [name, size])).toEqual([['LINE.CSV', 6]])
+    expect((await program.interrupt()).code).toBe(0)
+    rmSync(folder, { recursive: true })
+  })
+
+  test.each([
+    ['2', /number of the drive and a folder/],
+    ['2=/no/such/folder', /cannot be a drive/],
+    ['9=.', /no drive 9/],
+  ])('--drive %s is refused', async (drive, text) => {
+    const { code, err } = await runHere(['simulate', '--port', '0', '--drive', drive])
+    expect(code).not.toBe(0)
+    expect(err).toMatch(text)
   })
 
   test('has labels and a remote password, and locks out whoever tries too often', async () => {
