@@ -224,6 +224,7 @@ describe('profiles', () => {
     said('Monitor registration', command('entryMonitorDevice'))
     said('Read type name', command('readTypeName'))
     said('Labels by name (`Line1.Speed`)', command('readRandomLabels'))
+    said('Files on its drives', command('readDirectory'))
     said('Numbers of X and Y', ({ xyRadix }) => (xyRadix === 8 ? 'octal' : 'hexadecimal'))
     said('Link direct devices (`J1\\W10`)', ({ extensions }) => (extensions.includes('link') ? 'yes' : 'no'))
     said('CPU buffer memory (`U3E0\\HG0`)', ({ extensions }) => (extensions.includes('cpu') ? 'yes' : 'no'))
