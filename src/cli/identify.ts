@@ -1,4 +1,4 @@
-import { EndCodeError, type Identity, type MelsecClient } from '../index'
+import { EndCodeError, type Identity, type MelsecClient, type PlcError, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, peerText, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
@@ -19,10 +19,16 @@ function identify(terminal: Terminal, options: ConnectionOptions): Promise<numbe
       show(terminal, options, client, await client.identify())
       return exitCodes.ok.code
     } catch (error) {
-      if (!(error instanceof EndCodeError)) throw error
       // Built-in ports of Q and L do not have the command. A refusal is an answer: the PLC is there.
-      showRefusal(terminal, options, client, error)
-      return exitCodes.refused.code
+      if (error instanceof EndCodeError) {
+        showUnnamed(terminal, options, client, error)
+        return exitCodes.refused.code
+      }
+      if (!(error instanceof RequestError) || error.code !== 'UNSUPPORTED') throw error
+      // The profile knows that, so it was not asked. Connecting asks for something else.
+      await client.connect()
+      showUnnamed(terminal, options, client, error)
+      return exitCodes.ok.code
     }
   })
 }
@@ -47,7 +53,7 @@ function show(terminal: Terminal, options: ConnectionOptions, client: MelsecClie
   )
 }
 
-function showRefusal(terminal: Terminal, options: ConnectionOptions, client: MelsecClient, error: EndCodeError): void {
+function showUnnamed(terminal: Terminal, options: ConnectionOptions, client: MelsecClient, error: PlcError): void {
   const roundTrip = client.statistics.roundTrip?.last
   if (options.json === true) terminal.out(json({ plc: peerText(options), error: errorData(error), roundTrip }))
   else

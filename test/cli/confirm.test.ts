@@ -156,3 +156,35 @@ describe('control of the module', () => {
     expect(tested.out).toContain('What was sent came back.')
   })
 })
+
+describe('identify', () => {
+  test('by a port without the command connects, and says that nobody was asked', async () => {
+    const builtIn = createPlcSimulator({ profile: 'q-built-in' })
+    await builtIn.listen()
+    try {
+      const { code, out, err } = await runHere(
+        ['identify', '--plc', `127.0.0.1:${builtIn.tcp?.port}`, '--profile', 'q-built-in'],
+        'n',
+      )
+      expect(code).toBe(0)
+      expect(out).toMatch(/Model +not told/)
+      expect(err).toContain('The PLC answers, so the connection works.')
+      expect(err).toContain('Built-in Ethernet ports do not have it')
+      expect(builtIn.errors.led).toBe(false)
+    } finally {
+      await builtIn.close()
+    }
+  })
+
+  test('by a port where nobody listens fails as ever', async () => {
+    const closed = createPlcSimulator({ profile: 'q-built-in' })
+    await closed.listen()
+    const { port } = closed.tcp ?? {}
+    await closed.close()
+    const { code } = await runHere(
+      ['identify', '--plc', `127.0.0.1:${port}`, '--profile', 'q-built-in', '--timeout', '500'],
+      'n',
+    )
+    expect(code).toBe(4)
+  })
+})
