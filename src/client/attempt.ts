@@ -1,5 +1,5 @@
 // What may fail with a PlcError, as a value: for lists in which one bad entry must not spoil the others.
-import { PlcError } from '../errors'
+import { PlcError, RequestError } from '../errors'
 
 /** The value, or the error that it turned out to be. */
 export function attempt<T>(run: () => T): T | PlcError {
@@ -13,4 +13,11 @@ export function attempt<T>(run: () => T): T | PlcError {
 
 export function isFine<T>(outcome: T | PlcError): outcome is T {
   return !(outcome instanceof PlcError)
+}
+
+/** As `attempt`; a bad value or option says what it is about. */
+export function attemptFor<T>(name: string, run: () => T): T | PlcError {
+  const outcome = attempt(run)
+  if (!(outcome instanceof RequestError) || outcome.message.includes(name)) return outcome
+  return new RequestError(outcome.code, `${name}: ${outcome.message}`, outcome.field ?? name)
 }

@@ -10,14 +10,26 @@ import type { TraceEntry } from './trace'
 /** A value read from an item without, or with, a count or range. */
 export type ReadValue = PlcValue | PlcValue[]
 
-/** The type of an item's value as far as its text says it: `D100:REAL` number, `D100:REAL[4]` number[]. */
-export type ItemValue<I> = I extends `${string}:${infer T}[${string}]`
+/**
+ * The type of an item's value as far as its text says it: `D100:REAL` number, `D100:REAL[4]` number[]. Brackets behind
+ * the name of a label are an index and no count.
+ */
+export type ItemValue<I> =
+  Lowercase<I & string> extends `label:${infer L}`
+    ? LabelItemValue<L>
+    : I extends `${string}:${infer T}[${string}]`
+      ? ValueOf<T>[]
+      : I extends `${string}..${string}`
+        ? PlcValue[]
+        : I extends `${string}:${infer T}`
+          ? ValueOf<T>
+          : ReadValue
+
+type LabelItemValue<L> = L extends `${string}:${infer T}[${string}]`
   ? ValueOf<T>[]
-  : I extends `${string}..${string}`
-    ? PlcValue[]
-    : I extends `${string}:${infer T}`
-      ? ValueOf<T>
-      : ReadValue
+  : L extends `${string}:${infer T}`
+    ? ValueOf<T>
+    : ReadValue
 
 /** What a client tells those who listen. */
 export interface ClientEvents {

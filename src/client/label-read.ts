@@ -1,7 +1,7 @@
 // Many labels read at once: types and values by Label Read Random, arrays of known type by Array Label Read.
 import { PlcError, ProtocolError } from '../errors'
 import type { PlcValue } from '../value/value'
-import { attempt, isFine } from './attempt'
+import { attemptFor, isFine } from './attempt'
 import { ArrayParts } from './label-array'
 import type { AskedLabel, LabelFormat } from './label-item'
 import type { LabelAnswer, LabelRequests } from './label-request'
@@ -40,7 +40,7 @@ export async function readLabels(
   const timestamp = time()
   const arrays = new ArrayParts(requests)
   const outcomes = asked.map((one) =>
-    isFine(one) ? attempt(() => readingOf(one, answers.get(one), arrays, reading)) : one,
+    isFine(one) ? attemptFor(one.address.name, () => readingOf(one, answers.get(one), arrays, reading)) : one,
   )
   const values = await arrays.read(format)
   return outcomes.map((outcome): LabelOutcome => {

@@ -1,6 +1,6 @@
 // Values for labels: their types are read before anything is written, then the values are made into words.
 import { ClosedError, PlcError, RequestError } from '../errors'
-import { attempt, isFine } from './attempt'
+import { attemptFor, isFine } from './attempt'
 import { type AskedLabel, checkElements, type LabelFormat } from './label-item'
 import { type LabelValue, typeOf } from './label-read'
 import type { LabelRequests, LabelWrite } from './label-request'
@@ -40,7 +40,7 @@ export async function labelWrites(
     const { asked, value } = entry
     const answer = answers.get(asked)
     if (answer instanceof PlcError && answer.outcome === 'unknown') return untouched(asked, answer)
-    return attempt(() => {
+    return attemptFor(asked.address.name, () => {
       const type = typeOf(asked, answer)
       const content = encodeLabel(type, value, requests.protocol.code, { ...format, ...asked.format })
       return { asked, content }

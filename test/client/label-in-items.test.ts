@@ -159,6 +159,15 @@ describe('read', () => {
     expect(asked).toHaveLength(before)
   })
 
+  test('the types of values are those of the texts, and an index is no count', async () => {
+    const numbers: number[] = await client.read('label:Line1.Values[0]:INT[2]')
+    const speed: number = await client.read('Line1.Speed:REAL')
+    const unknown = await client.read('label:Line1.Values[1]')
+    // @ts-expect-error One element is no list.
+    const list: readonly unknown[] = unknown
+    expect([numbers, speed, list]).toEqual([[1, 2], 12.5, 2])
+  })
+
   test('a list is looked at once: read again, only its requests are made', async () => {
     const items = ['D100:REAL', 'Line1.Speed', 'Q5']
     const first = await client.read(items)
@@ -297,6 +306,7 @@ describe('write', () => {
       'ABORTED',
       'BAD_VALUE',
     ])
+    expect(results['Line1.Mask']).toMatchObject({ error: { message: expect.stringContaining('Line1.Mask') } })
     expect(asked).toEqual(['readRandomLabels'])
     asked.length = 0
     const mistyped = await client.write({ 'Line1.Ready': true, Q5: 1 }, { allOrNothing: true })
