@@ -115,10 +115,13 @@ export * from './simulator/simulator'
 export type { Clock } from './transport/clock'
 export type { OpenTransport, Transport, TransportHandlers } from './transport/transport'
 export {
+  bytesOfText,
+  type Encoding,
   formatType,
   type PlcValue,
   parseType,
   type TypeName,
+  textOfBytes,
   typeNames,
   type ValueFormat,
   type ValueOf,

@@ -7,7 +7,7 @@
  */
 import { isAscii, isUtf8 } from 'node:buffer'
 import * as iconv from 'iconv-lite'
-import { RequestError } from '../errors'
+import { ProtocolError, RequestError } from '../errors'
 import { badContent, badValue, show } from './fault'
 import type { Encoding, ValueFormat } from './format'
 import { formatType, type TextType, wordsOf } from './type'
@@ -131,17 +131,21 @@ function foreign(text: string, code: CharacterCode): string | undefined {
   return undefined
 }
 
-function encodeBytes(type: TextType, text: string, code: CharacterCode): Buffer {
+/** @throws RequestError BAD_VALUE naming the character that the code does not have */
+function bytesIn(code: CharacterCode, text: string): Buffer {
   const bytes = code.encode(text)
   // Reading back what will be written is the one test that holds for every code: no '?' gets through.
-  if (unpaired.test(text) || code.decode(bytes) !== text) {
-    const character = foreign(text, code) ?? text
-    const point = (character.codePointAt(0) ?? 0).toString(16).toUpperCase().padStart(4, '0')
-    throw new RequestError(
-      'BAD_VALUE',
-      `${show(text)}: the character ${show(character)} (U+${point}) does not exist in ${code.title}; set another encoding or leave it out`,
-    )
-  }
+  if (!unpaired.test(text) && code.decode(bytes) === text) return bytes
+  const character = foreign(text, code) ?? text
+  const point = (character.codePointAt(0) ?? 0).toString(16).toUpperCase().padStart(4, '0')
+  throw new RequestError(
+    'BAD_VALUE',
+    `${show(text)}: the character ${show(character)} (U+${point}) does not exist in ${code.title}; set another encoding or leave it out`,
+  )
+}
+
+function encodeBytes(type: TextType, text: string, code: CharacterCode): Buffer {
+  const bytes = bytesIn(code, text)
   if (bytes.length > capacity(type)) {
     const needed = bytes.length / code.unit
     const held = capacity(type) / code.unit
@@ -167,4 +171,41 @@ export function encodeText(type: TextType, value: unknown, format: ValueFormat):
     words[at] = format.byteOrder === 'high-first' ? swapBytes(word) : word
   }
   return words
+}
+
+function wholeCode(encoding: Encoding): CharacterCode {
+  if (typeof encoding === 'string' && Object.hasOwn(codes, encoding)) return codes[encoding]
+  throw new RequestError(
+    'BAD_OPTION',
+    `encoding is ${show(encoding)}; it is ${Object.keys(codes).join(', ')}`,
+    'encoding',
+  )
+}
+
+/**
+ * All of the bytes as text, such as the content of a file. Nothing is left out: a byte order mark is its first
+ * character, and NUL a character like any other.
+ * @throws RequestError BAD_OPTION for an encoding that does not exist
+ * @throws ProtocolError BAD_FIELD when the bytes are no text in this encoding; UTF-16 is that with the low byte first
+ * @example textOfBytes(await plc.files.read('4:/LINE.CSV'), 'shift-jis')
+ */
+export function textOfBytes(bytes: Uint8Array, encoding: Encoding): string {
+  const { title, unit, decode } = wholeCode(encoding)
+  const all = Buffer.from(bytes.buffer, bytes.byteOffset, bytes.length)
+  const text = all.length % unit === 0 ? decode(all) : undefined
+  // FFFEH is no character: a byte order mark that says that the high byte is first.
+  if (text !== undefined && !text.startsWith('\ufffe')) return text
+  const message = `These ${all.length} bytes are no ${title} text (${hex(all)}): set the encoding they are in, or take them as bytes.`
+  throw new ProtocolError('BAD_FIELD', message)
+}
+
+/**
+ * The bytes of a text, without anything before or behind it; UTF-16 with the low byte first.
+ * @throws RequestError BAD_OPTION for an encoding that does not exist, BAD_VALUE for a character that it does not have
+ * @example await plc.files.write('4:/LINE.CSV', bytesOfText('製品,温度', 'shift-jis'))
+ */
+export function bytesOfText(text: string, encoding: Encoding): Buffer {
+  const code = wholeCode(encoding)
+  if (typeof text !== 'string') throw badValue(`${code.title} text`, text, 'a string')
+  return bytesIn(code, text)
 }

@@ -2,6 +2,7 @@
 export { valueOfBytes } from './bytes'
 export { decodeArray, decodeValue, encodeArray, encodeValue } from './convert'
 export { checkFormat, type Encoding, formatOptions, type ValueFormat } from './format'
+export { bytesOfText, textOfBytes } from './text'
 export {
   formatType,
   maxTextLength,
