@@ -50,7 +50,11 @@ function details(profile: Profile): string {
     xyRadix,
     absentDevices,
     inFlight,
+    connections,
+    reach,
+    lastIndex,
     monitoringTimer,
+    remote,
   } = profile
   const head = table([
     ['Profile', id],
@@ -62,6 +66,17 @@ function details(profile: Profile): string {
     ['X and Y', XY[xyRadix]],
     ['Without', absentDevices.length === 0 ? 'no device is missing' : absentDevices.join(' ')],
     ['In flight', `${inFlight.tcp} over TCP, ${1 + inFlight.udpBuffer} over UDP with the 4E frame`],
+    ...inFlight.ports.map(({ port, buffer }) => ['', `1 + ${buffer} / connections over UDP: ${port}`]),
+    ['Connections', `at most ${connections.most}`],
+    ['Reaches', reach.stations === 'connected' ? 'the connected station only' : 'other stations, where its port does'],
+    [
+      'Indexed by',
+      lastIndex.Z < 0 ? 'nothing' : `Z0 to Z${lastIndex.Z}${lastIndex.LZ < 0 ? '' : `, LZ0 to LZ${lastIndex.LZ}`}`,
+    ],
+    [
+      'CPU state',
+      remote.status === undefined ? 'cannot be read back' : `${remote.status.device}${remote.status.number}`,
+    ],
     ['Monitoring timer', monitoringTimer.zeroOnly ? '0 only' : `usually ${monitoringTimer.default} ms`],
   ])
   const lacks = profile.lacks.map(({ command, reason, instead }) => `  - ${command}: ${reason} ${instead}`)

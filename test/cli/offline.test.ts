@@ -155,6 +155,8 @@ describe('profiles', () => {
 
   test('tells all about one', async () => {
     const { out } = await run('profiles', 'iq-f')
+    for (const fact of ['Connections       at most 8', 'the connected station only', 'Z0 to Z23, LZ0 to LZ11', 'SD203'])
+      expect(out).toContain(fact)
     expect(out).toMatch(/^X and Y +octal$/m)
     expect(out).toMatch(/- entryMonitorDevice: .*readRandom/)
   })
