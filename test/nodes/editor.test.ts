@@ -10,7 +10,7 @@ import { devices, type PlcSimulator, profileIds, typeNames } from '../../src/ind
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
-import { connectionTo, controlNode, portOf, readNode, requestNode, startPlc, writeNode } from './flow'
+import { connectionTo, controlNode, ondemandNode, portOf, readNode, requestNode, startPlc, writeNode } from './flow'
 
 const LANGUAGES = ['en-US', 'ja', 'zh-CN', 'zh-TW'] as const
 
@@ -28,6 +28,7 @@ beforeAll(async () => {
     writeNode({ valuesType: 'rows', items: [row], x: 200, y: 200 }),
     controlNode({ commandType: 'command', command: 'stop', x: 200, y: 300 }),
     requestNode({ command: 'readWords', message: '{"head":"D100","points":1}', messageType: 'json', x: 200, y: 400 }),
+    ondemandNode({ topic: 'batches', x: 200, y: 500 }),
   ])
 }, 90_000)
 
@@ -118,11 +119,11 @@ describe('in English', () => {
 
   test('a node without a name is called by its first item', async () => {
     const labels = await page.locator('.red-ui-flow-node-label-text').allTextContents()
-    expect(labels).toEqual(expect.arrayContaining(['level +1', 'D112', 'remote STOP', 'Read (word units)']))
+    expect(labels).toEqual(expect.arrayContaining(['level +1', 'D112', 'remote STOP', 'Read (word units)', 'batches']))
   })
 
   test('the statuses of the nodes are in words', async () => {
-    await expect(page.locator('.red-ui-flow-node-status-label', { hasText: 'connected' }).count()).resolves.toBe(4)
+    await expect(page.locator('.red-ui-flow-node-status-label', { hasText: 'connected' }).count()).resolves.toBe(5)
   })
 
   test('the read dialog says what each row will read, while it is typed', async () => {
@@ -181,6 +182,20 @@ describe('in English', () => {
     await close(page, 'ok')
     expect(await property(page, 'write', 'items')).toEqual([
       { name: '', address: 'D112', type: 'REAL', value: '40.5', valueType: 'num' },
+    ])
+  })
+
+  test('the on-demand dialog shows what its text and its connection need', async () => {
+    await edit(page, 'ondemand')
+    const shown = (note: string) => page.locator(`.melsec-jw-${note}`).isVisible()
+    expect([await shown('text'), await shown('udp'), await shown('1e')]).toEqual([false, false, false])
+    await page.locator('#node-input-output').selectOption('text')
+    expect(await shown('text')).toBe(true)
+    await picture(page, 'ondemand')
+    await close(page, 'ok')
+    expect([await property(page, 'ondemand', 'output'), await property(page, 'ondemand', 'topic')]).toEqual([
+      'text',
+      'batches',
     ])
   })
 
@@ -300,6 +315,7 @@ describe('in English', () => {
       ['write', 'A write is never repeated'],
       ['control', 'Remote control of the CPU'],
       ['request', 'Any command of the manuals'],
+      ['ondemand', 'Nothing is answered'],
       ['connection', 'How to reach a Mitsubishi MELSEC PLC'],
     ]) {
       const help = await page.evaluate((name) => $(`script[data-help-name="melsec-jw-${name}"]`).text(), type)
@@ -313,7 +329,7 @@ declare const $: (selector: string) => { text(): string }
 
 /** Every dialog, held against missing texts and texts that are too long for it. */
 async function lookThrough(page: Page, language: string): Promise<void> {
-  for (const id of ['read', 'write', 'control', 'request', 'plc']) {
+  for (const id of ['read', 'write', 'control', 'request', 'ondemand', 'plc']) {
     await edit(page, id)
     const form = page.locator('.red-ui-tray-body .melsec-jw-form').last()
     const text = (await form.innerText()) + (await form.locator('option').allTextContents()).join('\n')
