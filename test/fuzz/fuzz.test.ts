@@ -12,7 +12,7 @@ import { type FuzzResult, fuzz, type Tally } from './run'
 
 const { FUZZ_FRAMES, FUZZ_SEED } = process.env
 const options = { seed: Number(FUZZ_SEED ?? 1), frames: Number(FUZZ_FRAMES ?? 5000), every: 200 }
-/** ms for a frame of 64 KB, with a garbage collection and a busy machine in between. */
+/** ms of processor time for a frame of 64 KB, explained, with a garbage collection in between. */
 const LONGEST = 2000
 const MOST_GROWN = 32 * 2 ** 20
 
@@ -23,8 +23,8 @@ describe.each(frameKinds)('$name', (kind) => {
     for (const tally of [found.requests, found.answers]) {
       expect(tally.longest).toBeLessThan(LONGEST)
       // The damage is of use only when it comes as far as the decoders, and is found there.
-      expect(tally.values).toBeGreaterThan(options.frames / 10)
-      expect(tally.protocolErrors).toBeGreaterThan(options.frames / 10)
+      expect(tally.values).toBeGreaterThan(options.frames / 20)
+      expect(tally.protocolErrors).toBeGreaterThan(options.frames / 20)
     }
     expect(found.grown).toBeLessThan(MOST_GROWN)
     expect(namesOf(kind.name)).toEqual([...found.commands].sort())
@@ -38,9 +38,12 @@ function namesOf(kind: string): string[] {
 }
 
 function report({ kind, grown, requests, answers }: FuzzResult): string {
-  const of = (side: string, { frames, values, endCodes, protocolErrors, incomplete, longest, ms, buffered }: Tally) =>
+  const of = (
+    side: string,
+    { frames, values, endCodes, protocolErrors, incomplete, longest, longestAt, ms, buffered }: Tally,
+  ) =>
     `${kind} ${side}: ${frames} frames, ${Math.round(frames / (ms / 1000))}/s; ${values} values, ${endCodes} end codes, ` +
-    `${protocolErrors} ProtocolErrors, ${incomplete} incomplete; longest ${longest.toFixed(1)} ms, most kept ${buffered} bytes\n`
+    `${protocolErrors} ProtocolErrors, ${incomplete} incomplete; longest ${longest.toFixed(1)} ms (frame ${longestAt}), most kept ${buffered} bytes\n`
   return `${of('requests', requests)}${of('answers', answers)}${kind}: heap ${(grown / 2 ** 20).toFixed(2)} MB more\n`
 }
 
