@@ -209,7 +209,7 @@ class Walk {
     const { [name]: value } = decode<Shape>({ [name]: field }, this.#reader, context)
     switch (field.kind) {
       case 'fixed':
-        return field.value
+        return field.ascii ?? field.value
       case 'count': {
         const written = readerOf(code, this.#bytes.subarray(start)).uint(field.width)
         if (written === field.noneToo) return 0
