@@ -17,7 +17,7 @@ export interface ConnectionSettings {
   readonly localAddress: string
   readonly localPort: string
   readonly profile: string
-  /** `3E`, `4E` or `''`. */
+  /** `3E`, `4E`, `ext`, `1E` or `''`. */
   readonly frame: string
   /** `binary` or `ascii`. */
   readonly code: string
@@ -34,6 +34,8 @@ export interface ConnectionSettings {
   /** Hexadecimal, e.g. `3FF`. */
   readonly moduleIo: string
   readonly multidrop: string
+  /** Station extension frame; `''` where the station number says all. */
+  readonly extensionStation: string
   /** ms */
   readonly monitoringTimer: string
   /** ms */
@@ -66,6 +68,7 @@ const TEXT_FIELDS = [
   'station',
   'moduleIo',
   'multidrop',
+  'extensionStation',
   'monitoringTimer',
   'timeout',
   'inFlight',
@@ -143,7 +146,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       transport: choice(settings, 'transport', ['tcp', 'udp'], texts),
       localAddress: settings.localAddress === '' ? undefined : settings.localAddress,
       localPort: number('localPort'),
-      frame: choice(settings, 'frame', ['3E', '4E', '1E'], texts),
+      frame: choice(settings, 'frame', ['3E', '4E', 'ext', '1E'], texts),
       code: choice(settings, 'code', ['binary', 'ascii'], texts),
       asciiXy: choice(settings, 'asciiXy', ['octal', 'hexadecimal'], texts),
       asciiZr: choice(settings, 'asciiZr', ['decimal', 'hexadecimal'], texts),
@@ -173,6 +176,7 @@ function routeOf(settings: ConnectionSettings, texts: Texts): Partial<Route> {
     station: wholeNumber(settings, 'station', texts),
     moduleIo: hexNumber(settings, 'moduleIo', texts),
     multidrop: wholeNumber(settings, 'multidrop', texts),
+    extensionStation: wholeNumber(settings, 'extensionStation', texts),
   })
 }
 

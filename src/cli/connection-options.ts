@@ -31,6 +31,7 @@ export interface ConnectionOptions {
   readonly station?: number
   readonly moduleIo?: number
   readonly multidrop?: number
+  readonly extensionStation?: number
   readonly monitoringTimer?: number
   readonly localAddress?: string
   readonly localPort?: number
@@ -133,7 +134,11 @@ export function addConnectionOptions(command: Command): Command {
     .addOption(new Option('--password', `ask for the remote password; without it ${PASSWORD} is used, if set`))
     .optionsGroup('Another station or CPU:')
     .addOption(new Option('--network <number>', 'another network').argParser(whole(0, 255)))
-    .addOption(new Option('--station <number>', 'another station of that network').argParser(whole(0, 255)))
+    .addOption(
+      new Option('--station <number>', 'another station of that network; above 120 with --frame ext').argParser(
+        whole(0, 65_534),
+      ),
+    )
     .addOption(
       new Option(
         '--module-io <number>',
@@ -141,6 +146,12 @@ export function addConnectionOptions(command: Command): Command {
       ).argParser(moduleIo),
     )
     .addOption(new Option('--multidrop <number>', 'station behind a serial module').argParser(whole(0, 31)))
+    .addOption(
+      new Option(
+        '--extension-station <number>',
+        '--frame ext: the number of a station whose number means something else, with --station 124',
+      ).argParser(whole(0, 65_535)),
+    )
     .optionsGroup('Times and ports:')
     .addOption(
       new Option('--monitoring-timer <ms>', 'time the PLC gives a request; 0 = for ever').argParser(
@@ -249,14 +260,14 @@ export function clientOptions(
 ): MelsecClientOptions {
   const { profile, frame, ascii, asciiXy, asciiZr, asciiWordOrder, xyRadix, monitoringTimer, localAddress, localPort } =
     options
-  const { network, station, moduleIo: module, multidrop, wordOrder, byteOrder, encoding } = options
+  const { network, station, moduleIo: module, multidrop, extensionStation, wordOrder, byteOrder, encoding } = options
   return {
     ...peerOf(options),
     transport: options.udp === true ? 'udp' : 'tcp',
     code: ascii === true ? 'ascii' : 'binary',
     timeout: options.timeout,
     connectTimeout: options.connectTimeout,
-    route: given({ network, station, moduleIo: module, multidrop }),
+    route: given({ network, station, moduleIo: module, multidrop, extensionStation }),
     format: given({ wordOrder, byteOrder, encoding }),
     ...given({ profile, frame, asciiXy, asciiZr, asciiWordOrder, xyRadix, monitoringTimer, localAddress, localPort }),
     ...allow,

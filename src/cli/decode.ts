@@ -28,20 +28,26 @@ interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr'> {
   readonly json?: boolean
 }
 
-const FRAMES = ['3E', '4E', '1E', '4C', 'JW'] as const satisfies readonly (ExplainOptions['frame'] | 'JW')[]
+const FRAMES = ['3E', '4E', 'ext', '1E', '4C', 'JW'] as const satisfies readonly (ExplainOptions['frame'] | 'JW')[]
 
 /** `melsec-jw decode` */
 export const decodeCommand: MakeCommand = (run) => {
   const command = newCommand('decode', 'explain a captured frame, field by field', examples)
     .description(
-      'Explain a captured frame field by field: a request or a response, in 3E or 4E (told by the frame itself), 1E or ' +
-        '4C format 5 or Sharp JW (to be said). What the values of a response mean is in its request: give that too.',
+      'Explain a captured frame field by field: a request or a response, in 3E, 4E or station extension (told by the frame itself), ' +
+        '1E or 4C format 5 or Sharp JW (to be said). What the values of a response mean is in its request: give that too.',
     )
     .argument('<hex...>', 'bytes of the frame as hexadecimal digits; - for the standard input')
     .option('--request <hex>', 'the request that the frame answers')
     .option('--registration <hex>', 'the Entry Monitor Device before it, when the frame answers an Execute Monitor')
     .option('--text', 'the arguments are the characters of frames in ASCII code, not hexadecimal digits')
-    .addOption(choice('--frame <name>', 'frame; 4C is format 5, JW the commands of a Sharp JW-255CM', FRAMES))
+    .addOption(
+      choice(
+        '--frame <name>',
+        'frame; ext is station extension, 4C format 5, JW the commands of a Sharp JW-255CM',
+        FRAMES,
+      ),
+    )
     .addOption(choice('--code <code>', 'data code', ['binary', 'ascii']))
     .addOption(profileOption().default('generic'))
   addDigitOptions(command)

@@ -33,6 +33,17 @@ describe('decode', () => {
     expect(out).toContain('"value": "d000"')
   })
 
+  test('explains a station extension frame, and an answer by the command it repeats', async () => {
+    const request = '680034120000017cff030000 2c01 1200 1000 01040000 000000000000 640000a8 0100'.replaceAll(' ', '')
+    const answer = 'e80034120000017cff030000 2c01 0e00 0000 01040000 000000000000 3930'.replaceAll(' ', '')
+    const asked = await run('decode', request)
+    expect(asked.code).toBe(0)
+    expect(asked.out).toMatch(/^station extension request, binary code: Read \(word units\), D100, 1 point$/m)
+    expect(asked.out).toMatch(/extensionStation +300 \(012CH\)$/m)
+    expect((await run('decode', answer)).out).toMatch(/^station extension response, binary code: Read \(word units\)$/m)
+    expect((await run('decode', answer, '--request', request)).out).toMatch(/D100: 12345/)
+  })
+
   test('takes bytes as they are copied: spaces, colons, 0x, several arguments, the standard input', async () => {
     const spaced = REQUEST.replace(/../g, '$& ').trim()
     const expected = (await run('decode', REQUEST)).out
@@ -93,7 +104,7 @@ describe('decode', () => {
     [['decode', '500'], /3 hexadecimal digits are no whole number of bytes/],
     [['decode', ' '], /there are no bytes/],
     [['decode', REQUEST, '--request', 'xyz'], /the request: .*hexadecimal/],
-    [['decode', REQUEST, '--frame', '5E'], /3E, 4E, 1E, 4C/],
+    [['decode', REQUEST, '--frame', '5E'], /3E, 4E, ext, 1E, 4C/],
     [['decode'], /missing required argument/],
   ])('%j is wrong use', async (args, message) => {
     const { code, out, err } = await runHere(args)

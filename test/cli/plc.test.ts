@@ -89,6 +89,14 @@ describe('identify', () => {
       { profile: 'iq-r', frames: ['3E'] },
       (simulator: PlcSimulator) => [peer(simulator), '--frame', '3e'],
     ],
+    [
+      'the station extension frame, its own station in the extension field',
+      { profile: 'iq-r', frames: ['ext'] },
+      (simulator: PlcSimulator) => [
+        peer(simulator),
+        ...['--profile', 'iq-r', '--frame', 'ext', '--station', '124', '--extension-station', '65535'],
+      ],
+    ],
     ['an iQ-F', { profile: 'iq-f' }, (simulator: PlcSimulator) => [peer(simulator), '--profile', 'IQ-F']],
   ] as const)('over %s', async (_what, options, args) => {
     await other(options as PlcSimulatorOptions, async (simulator) => {
@@ -409,6 +417,9 @@ describe('wrong use', () => {
     [['read', 'D0', '--plc', '127.0.0.1:1', '--profile', 'q9'], /iq-r, iq-f, fx5-enet, .*generic/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--profile', 'iq-f', '--frame', '4E'], /has no 4E frame/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--network', '1'], /network 1 has stations 1 to 120/],
+    [['read', 'D0', '--plc', '127.0.0.1:1', '--network', '1', '--station', '300'], /need the station extension frame/],
+    [['read', 'D0', '--plc', '127.0.0.1:1', '--frame', 'ext', '--ascii'], /binary code only/],
+    [['read', 'D0', '--plc', '127.0.0.1:1', '--frame', 'ext', '--network', '1', '--station', '125'], /two stations/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--module-io', 'zz'], /hexadecimal/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--xy-radix', '10'], /8 \(octal\) or 16/],
     [['read'], /missing required argument/],

@@ -289,6 +289,7 @@ describe('wrong settings', () => {
     ['a frame that the series lacks', { profile: 'iq-f', frame: '4E' }, '3E'],
     ['a timer that is no multiple of 250', { monitoringTimer: '100' }, '250'],
     ['a route that does not exist', { network: '240' }, '240'],
+    ['a station that the frame cannot say', { network: '1', station: '300' }, 'station extension frame'],
     ['a module number that is not hexadecimal', { moduleIo: 'xyz' }, 'hexadecimal'],
     ['pipelining over TCP', { inFlight: '2' }, 'UDP'],
     ['a host that is no text', { host: { name: 'plc' } }, 'Host'],

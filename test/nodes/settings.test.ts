@@ -64,6 +64,18 @@ describe('settings of a connection', () => {
     expect(settled).toMatchObject({ host: 'plc', port: 5007, allowWrites: false, allowControl: false })
   })
 
+  test('a station above 120 is one of the station extension frame', () => {
+    const stored = { host: 'plc', port: '5007', profile: 'iq-r', network: '1', moduleIo: '3FF', multidrop: '0' }
+    const far = read({ ...stored, frame: 'ext', station: '300', extensionStation: '' })
+    expect(far).toMatchObject({ frame: 'ext', route: { network: 1, station: 300, moduleIo: 0x3ff, multidrop: 0 } })
+    expect(createMelsecClient(far).options.frame).toBe('ext')
+    const named = read({ ...stored, frame: 'ext', station: '124', extensionStation: '125' })
+    expect(named.route).toMatchObject({ station: 124, extensionStation: 125 })
+    expect(() => createMelsecClient(read({ ...stored, frame: '4E', station: '300' }))).toThrow(
+      'station extension frame',
+    )
+  })
+
   test('numbers may be numbers or text, and what is empty is left to the client', () => {
     expect(read({ host: 'plc', port: 5007, profile: 'q', moduleIo: '3e1h', xyRadix: '16', localPort: '' })).toEqual({
       host: 'plc',
