@@ -1,5 +1,13 @@
 // Results and errors as text for people and as JSON for programs.
-import { ConnectionError, EndCodeError, type PlcError, type ReadValue, RequestError, TimeoutError } from '../index'
+import {
+  ConnectionError,
+  EndCodeError,
+  type PlanDescription,
+  type PlcError,
+  type ReadValue,
+  RequestError,
+  TimeoutError,
+} from '../index'
 import type { Terminal } from './terminal'
 
 /** Rows as aligned columns. */
@@ -46,6 +54,17 @@ function realText(value: number): string {
     if (Math.fround(short) === value) return String(short)
   }
   return String(value)
+}
+
+/** The requests of a plan, one a line, and then what one should know. */
+export function planText(description: PlanDescription, asJson: boolean): string {
+  if (asJson) return json(description)
+  const lines = description.requests.map(({ text, requestBytes = '?', responseBytes = '?', items }) => [
+    text,
+    `${requestBytes} bytes out, ${responseBytes} in`,
+    `for ${items.join(', ')}`,
+  ])
+  return [...(lines.length === 0 ? [] : [table(lines)]), ...description.notes].join('\n')
 }
 
 /** An error as data, with everything it knows. */

@@ -1,14 +1,15 @@
-import { type MelsecClient, type ReadResult, RequestError } from '../index'
+import { createMelsecClient, type MelsecClient, type ReadResult, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import {
   addConnectionOptions,
   addFormatOptions,
   type ConnectionOptions,
+  clientOptions,
   type FormatOptions,
   withClient,
 } from './connection-options'
-import { exitOfResults } from './exit-code'
-import { errorData, itemErrorText, json, table, valueText } from './output'
+import { exitCodes, exitOfResults } from './exit-code'
+import { errorData, itemErrorText, json, planText, table, valueText } from './output'
 import type { Terminal } from './terminal'
 
 const examples = [
@@ -18,7 +19,7 @@ const examples = [
   "read --plc 192.168.3.250:5010 --profile iq-f X17 'D130:STRING(20)' --json",
 ]
 
-type ReadOptions = ConnectionOptions & FormatOptions
+type ReadOptions = ConnectionOptions & FormatOptions & { readonly plan?: boolean }
 
 /** `melsec-jw read` */
 export const readCommand: MakeCommand = (run) => {
@@ -30,6 +31,8 @@ export const readCommand: MakeCommand = (run) => {
         'Line1.Values[0]:INT[10] for ten elements; the PLC says their types.',
     )
     .argument('<items...>', 'what to read')
+    .optionsGroup('Reading:')
+    .option('--plan', 'do not connect: print the requests that would read it')
   addFormatOptions(addConnectionOptions(command))
   return command.action((items: readonly string[], options: ReadOptions) =>
     perform(run, options, () => read(run.terminal, items, options)),
@@ -37,6 +40,11 @@ export const readCommand: MakeCommand = (run) => {
 }
 
 async function read(terminal: Terminal, items: readonly string[], options: ReadOptions): Promise<number> {
+  if (options.plan === true) {
+    const plan = createMelsecClient(clientOptions(options)).plan(items)
+    terminal.out(planText(plan.describe(), options.json === true))
+    return exitCodes.ok.code
+  }
   const { results, types } = await withClient(terminal, options, {}, async (client) => ({
     results: await client.read(items),
     types: items.map((item) => typeOf(client, item)),

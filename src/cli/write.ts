@@ -19,8 +19,8 @@ import {
   peerText,
   withClient,
 } from './connection-options'
-import { exitOfResults } from './exit-code'
-import { errorData, errorText, itemErrorText, json, table, valueText } from './output'
+import { exitCodes, exitOfResults } from './exit-code'
+import { errorData, errorText, itemErrorText, json, planText, table, valueText } from './output'
 import { refusalOf, type Terminal } from './terminal'
 import { typedValue } from './typed-value'
 
@@ -31,7 +31,8 @@ const examples = [
   "write --plc 192.168.3.39:5010 --profile iq-r Line1.Speed=12.5 'Line1.Values[0]:INT[3]=1,2,3'",
 ]
 
-type WriteOptions = ConnectionOptions & FormatOptions & { readonly yes?: boolean; readonly readModifyWrite?: boolean }
+type WriteOptions = ConnectionOptions &
+  FormatOptions & { readonly yes?: boolean; readonly readModifyWrite?: boolean; readonly plan?: boolean }
 
 /** What was typed, understood as far as it is without the PLC. */
 interface Typed {
@@ -61,6 +62,7 @@ export const writeCommand: MakeCommand = (run) => {
     .argument('<item=value...>', 'what to write')
     .optionsGroup('Writing:')
     .option('-y, --yes', 'do not ask')
+    .option('--plan', 'do not connect and write nothing: print the requests that would write it')
     .option('--read-modify-write', 'allow bits of words (D100.3): the word is read, changed and written back')
   addFormatOptions(addConnectionOptions(command))
   return command.action((texts: readonly string[], options: WriteOptions) =>
@@ -71,6 +73,11 @@ export const writeCommand: MakeCommand = (run) => {
 async function write(terminal: Terminal, texts: readonly string[], options: WriteOptions): Promise<number> {
   const checking = createMelsecClient(clientOptions(options))
   const typed = texts.map((text) => typedOf(checking, text))
+  if (options.plan === true) {
+    const plan = checking.planWrite(typed.map(plannedEntry), how(options))
+    terminal.out(planText(plan.describe(), options.json === true))
+    return exitCodes.ok.code
+  }
   const assignments = typed.every(isComplete) ? typed.map(deviceAssignment) : undefined
   // Devices are understood before anybody is asked or connected. Of labels only the PLC knows the types.
   if (assignments !== undefined) await confirm(terminal, checking, assignments, options)
@@ -81,6 +88,11 @@ async function write(terminal: Terminal, texts: readonly string[], options: Writ
     show(terminal, options, all, results)
     return exitOfResults(results)
   })
+}
+
+/** Of a label the type is not known yet, so its value is what was typed. How many elements it has is known. */
+function plannedEntry({ item, text, explanation, value }: Typed): WriteEntry {
+  return { item, value: value ?? (explanation.count === undefined ? text : text.split(',')) }
 }
 
 function how(options: WriteOptions) {

@@ -99,6 +99,22 @@ describe('write', () => {
   })
 })
 
+describe('--plan', () => {
+  test('prints the requests and sends none', async () => {
+    const read = await runHere(['read', 'D0', 'Line1.Speed', 'Line1.Ready', 'Line1.Name', 'Q5', ...on(), '--plan'])
+    expect(read).toMatchObject({ code: 0, err: '' })
+    expect(read.out).toMatch(/^Read \(word units\): D0, 1 point +\d+ bytes out, \d+ in +for D0$/m)
+    expect(read.out).toMatch(
+      /^Label Read Random: 3 labels, %1 for Line1 +\d+ bytes out, \? in +for Line1.Speed, Line1.Ready, Line1.Name$/m,
+    )
+    expect(read.out).toContain('label:Q5')
+    const write = await runHere(['write', 'D0=5', 'Line1.Values[0]:INT[2]=1,2', ...on(), '--plan', '--json'])
+    const { requests } = JSON.parse(write.out) as { requests: { command: string }[] }
+    expect(requests.map(({ command }) => command)).toEqual(['readRandomLabels', 'writeWords', 'writeArrayLabels'])
+    expect(asked).toEqual([])
+  })
+})
+
 describe('of the simulated PLC', () => {
   test.each([
     ['Line1.Speed:REAL=12.5', 'Line1.Speed', { type: 'REAL', value: 12.5 }],
