@@ -113,6 +113,8 @@ function unpacked(date: number, time: number): FileTime {
 function codecOf(name: string, first: 'date' | 'time'): ValueCodec<FileTime> {
   return {
     name,
+    takes: 'an object with year, month, day, hour, minute and second (even)',
+    example: { year: 2026, month: 4, day: 1, hour: 12, minute: 30, second: 0 },
     write(writer: Writer, value) {
       const { date, time } = packed(value)
       for (const word of first === 'date' ? [date, time] : [time, date]) writer.uint(word, 2)

@@ -6,7 +6,7 @@ import { mkdir } from 'node:fs/promises'
 import { join } from 'node:path'
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import type { Page } from 'playwright-core'
-import { devices, type PlcSimulator, profileIds, typeNames } from '../../src/index'
+import { commands, devices, type PlcSimulator, profileIds, typeNames } from '../../src/index'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
@@ -304,6 +304,9 @@ describe('in English', () => {
     await close(page, 'cancel')
     await edit(page, 'read')
     expect(await values('#melsec-jw-items li:first-child .melsec-jw-type')).toEqual(['', ...typeNames])
+    await close(page, 'cancel')
+    await edit(page, 'request')
+    expect((await values('#node-input-command')).sort()).toEqual(Object.keys(commands).sort())
     await close(page, 'cancel')
   })
 

@@ -14,7 +14,7 @@ let red: NodeRed
 let plc: PlcSimulator
 
 beforeAll(async () => {
-  // What `--label` of the expectations' `simulate` makes.
+  // What `--module` and `--label` of the expectations' `simulate` make.
   plc = await startPlc({
     extensions: { modules: [{ unit: 3, points: 4096, model: 'Q62DA' }] },
     labels: {

@@ -2,6 +2,7 @@
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { commands, type PlcSimulator } from '../../src/index'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
+import { readText } from '../support/syntax'
 import { type CaughtError, catchNode, connectionTo, requestNode, startPlc } from './flow'
 
 let red: NodeRed
@@ -183,6 +184,14 @@ describe('in the editor', () => {
     expect(settings.melsecJwRequestCommands.map(({ name }) => name)).toEqual(Object.keys(commands))
     expect(settings.melsecJwRequestModules).toContainEqual({ model: 'Q62DA', known: true })
     expect(settings.melsecJwRequestModules).toContainEqual({ model: 'QD62', known: false })
+  })
+
+  test.each(['en-US', 'ja', 'zh-CN', 'zh-TW'])('every effect of a command has its text in %s', (language) => {
+    const catalogue = JSON.parse(readText(`nodes/locales/${language}/melsec-jw-request.json`)) as {
+      effect: Record<string, string>
+    }
+    const effects = new Set(Object.values(commands).map(({ effect }) => effect))
+    expect(Object.keys(catalogue.effect).sort()).toEqual([...effects].sort())
   })
 
   const check = async (body: unknown) => red.http('POST', 'melsec-jw/request/check', body)
