@@ -149,6 +149,7 @@ export class LabelRequests {
       const last = some.at(-1)
       if (first === undefined || last === undefined || 'area' in first.content !== 'area' in last.content) return false
       const isArray = 'area' in first.content
+      if (some.slice(0, -1).some((before) => meets(before, last, isArray))) return false
       return isArray ? this.#fits('writeArrayLabels', arraysOf(some)) : this.#fits('writeRandomLabels', labelsOf(some))
     })
   }
@@ -177,6 +178,11 @@ function bytesOf({ unit, length }: ArrayRead['extent']): number {
 
 function notAsked({ name }: ArrayRead): ProtocolError {
   return new ProtocolError('ECHO_MISMATCH', `${name}: the PLC answered another unit or length than was asked for.`)
+}
+
+/** Two writes of the same label: which one stays is sure only when they are sent one after the other. */
+function meets({ asked: a }: LabelWrite, { asked: b }: LabelWrite, isArray: boolean): boolean {
+  return isArray ? a.address.stem === b.address.stem : a.address.name === b.address.name
 }
 
 /** Of what stands behind a write that failed. */

@@ -350,6 +350,14 @@ describe('write', () => {
     expect(asked).toEqual(['readRandomLabels'])
   })
 
+  test('a label that is written twice holds the last value, by requests of its own', async () => {
+    const items = ['Line1.Mask', 'Motor_1', 'label:Line1.Mask']
+    const results = await client.write(items.map((item, at) => ({ item, value: at + 1 })))
+    expect(results.every(({ ok }) => ok)).toBe(true)
+    expect([plc.labels.get('Line1.Mask'), plc.labels.get('Motor_1')]).toEqual([3, 2])
+    expect(asked).toEqual(['readRandomLabels', 'writeRandomLabels', 'writeRandomLabels'])
+  })
+
   test('a device that is written twice is refused, also with a label between', async () => {
     const entries = ['D100', 'Line1.Ready', 'D100'].map((item) => ({ item, value: item === 'D100' ? 1 : true }))
     const results = await client.write(entries)
