@@ -12,7 +12,15 @@ export function protocolOf(
   { asciiXy, asciiZr }: MelsecClientOptions,
 ): ClientProtocol<Head3e> {
   if (frame === '1E') return protocolOver1e({ profile, code, asciiXy, timer, route })
-  return new MelsecProtocol({ framing: frame3e(frame, code), head: { route, timer }, profile, code, asciiXy, asciiZr })
+  return new MelsecProtocol({
+    framing: frame3e(frame, code),
+    head: { route, timer },
+    moduleIo: route.moduleIo,
+    profile,
+    code,
+    asciiXy,
+    asciiZr,
+  })
 }
 
 export function transportOf(

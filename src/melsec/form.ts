@@ -31,7 +31,7 @@ function subcommandsOf(command: Command, form: DeviceForm, profile: Profile): re
   if (command.unit !== 'none') return [FORM_BITS[form] | (command.unit === 'bit' ? BIT_UNIT : 0)]
   const { subcommands } = command
   if (subcommands === undefined) return [0]
-  // A family without the command still tells which one it lacks.
+  // A file pointer is told alike everywhere; and a family without the command still tells which one it lacks.
   const taken = profile.files.subcommands.filter((subcommand) => subcommands.includes(subcommand))
   return taken.length > 0 ? taken : subcommands
 }

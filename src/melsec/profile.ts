@@ -191,6 +191,8 @@ export interface FileFacts {
   /** Subcommands of the file commands, the usual one first: 0000, 0004, or 0040 with long names and directories. */
   readonly subcommands: readonly number[]
   readonly drives: readonly Drive[]
+  /** Module I/O numbers that file commands may name; none: whatever the others may. */
+  readonly moduleIo: readonly number[]
   /** Parameter files, and programs that run, are changed in STOP only. */
   readonly stopToChange: boolean
   readonly refusals: FileRefusals

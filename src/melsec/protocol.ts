@@ -9,7 +9,7 @@ import { type CommandName, commands } from './commands/commands'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf } from './device-uses'
 import { explainEndCode } from './end-code'
-import { checkDrives } from './file-check'
+import { checkFileCommand } from './file-check'
 import { chooseForm, codecBits, FORM_BITS, findCommand, subcommandOf } from './form'
 import { checkLimits } from './limit'
 import type { DeviceForm, Profile } from './profile'
@@ -22,6 +22,8 @@ export interface MelsecProtocolOptions<Head> {
   readonly framing: Framing<Head> & { readonly body?: BodyLayout }
   /** Head of every request: route and monitoring timer. */
   readonly head: Head
+  /** Module I/O number of its route, for commands that do not take every one. */
+  readonly moduleIo?: number
   readonly profile: Profile
   readonly code: DataCode
   /**
@@ -97,6 +99,7 @@ export class MelsecProtocol<Head> {
   /** Bytes in front of the data of a request: command, subcommand, fixed values. */
   readonly dataAt: number
   readonly #head: Head
+  readonly #moduleIo: number | undefined
   /** Form bits that are settings of the port and not part of the subcommand. */
   readonly #digitBits: number
   readonly #unknownDigits: readonly UnknownDigits[]
@@ -109,6 +112,7 @@ export class MelsecProtocol<Head> {
     this.profile = options.profile
     this.code = options.code
     this.#head = options.head
+    this.#moduleIo = options.moduleIo
     this.#digitBits =
       (options.asciiXy === 'octal' ? FORM_XY_OCTAL : 0) | (options.asciiZr === 'hexadecimal' ? FORM_ZR_HEX : 0)
     this.#unknownDigits = unknownDigits(options)
@@ -136,7 +140,7 @@ export class MelsecProtocol<Head> {
     const body = writer.take()
     // What was sent counts, not an object that the caller may change before the answer comes.
     const sent: Bag = decode(command.request, readerOf(this.code, body.subarray(this.dataAt), bits))
-    checkDrives(this.profile, command, sent)
+    checkFileCommand(this.profile, command, sent, this.#moduleIo)
     const context = this.#contextOf(command, sent, options)
     return {
       title: command.title,

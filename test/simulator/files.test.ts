@@ -395,6 +395,22 @@ describe('what is not sent', () => {
     expect(plc.statistics.requests).toBe(0)
   })
 
+  test.each([
+    ['iq-r', 0x3e0],
+    ['iq-r', 0x3d0],
+    ['q', 0x3e1],
+    ['remote-head', 0x3d0],
+  ] as const)('to another module: %s, %i', async (profile, moduleIo) => {
+    const { plc, client } = await pair({ profile }, { route: { moduleIo } })
+    for (const ask of [
+      () => client.request(commands.closeFile, { pointer: 0 }),
+      () => client.request(commands.searchFile, { drive: 4, name: 'A.CSV' }),
+    ]) {
+      await expect(ask()).rejects.toThrow(/cannot go to module I\/O 03[DE]\d.*take 03FF/)
+    }
+    expect(plc.statistics.requests).toBe(0)
+  })
+
   test.each(['TOOLONGNAME.CSV', 'A.LONG', 'A.B.C', 'DIR\\A.CSV', 'Ω€.CSV', ' A.CSV', 'A.'])('Q: %s', async (name) => {
     const { plc, client } = await pair({ profile: 'q' })
     await expect(client.request(commands.searchFile, { drive: 4, name })).rejects.toThrow(/name/)

@@ -17,6 +17,8 @@ const manual = 'SLMP reference manual 5.8'
 /** 0000 Q and L, 0040 iQ-R and its remote head; 0004 LCPU and the head module LJ72GF15-T2, with the layouts of 0000. */
 const named = [0x0000, 0x0040] as const
 const withPassword = [0x0000, 0x0004, 0x0040] as const
+/** On every family. */
+const withPointer = [0x0000] as const
 
 const drive = value(driveNumber, 'drive number')
 const name = value(fileName, 'with its extension; subcommand 0040: path from the root')
@@ -153,6 +155,7 @@ export const fileCommands = declare({
     title: 'Read File',
     code: 0x1828,
     unit: 'none',
+    subcommands: withPointer,
     effect: 'read',
     manual,
     request: { pointer, offset, byteCount: u16({ ...bounds, doc: 'bytes' }) },
@@ -162,6 +165,7 @@ export const fileCommands = declare({
     title: 'Write File',
     code: 0x1829,
     unit: 'none',
+    subcommands: withPointer,
     effect: 'write',
     manual,
     request: { pointer, offset, byteCount: countOf('data', 2, bounds), data: bytes('byteCount') },
@@ -171,6 +175,7 @@ export const fileCommands = declare({
     title: 'Close File',
     code: 0x182a,
     unit: 'none',
+    subcommands: withPointer,
     effect: 'lock',
     manual,
     request: {

@@ -56,7 +56,10 @@ const iqRRefusals: FileRefusals = {
     'background: FX5 communication manual 47.1 for the same refusals of the FX5 CPU, error code lists of the CPU modules',
 }
 
-/** iQ-R, and the remote head RJ72GF15-T2. */
+/** 4.1, Request destination module I/O No.: not of multiple CPUs, and not a system that a switch-over changes. */
+const ofCpu = [0x3ff, 0x3d2, 0x3d3]
+const ofRemoteHead = [0x3ff, 0x3e0, 0x3e1]
+
 export const iqRFiles: FileFacts = {
   subcommands: [0x0040],
   drives: [
@@ -65,10 +68,14 @@ export const iqRFiles: FileFacts = {
     { number: 3, title: 'device/label memory' },
     { number: 4, title: 'data memory' },
   ],
+  moduleIo: ofCpu,
   stopToChange: false,
   refusals: iqRRefusals,
   source: manual,
 }
+
+/** The remote head RJ72GF15-T2. */
+export const remoteHeadFiles: FileFacts = { ...iqRFiles, moduleIo: ofRemoteHead }
 
 const drivesOfQAndL: FileFacts['drives'] = [
   { number: 0, title: 'program memory' },
@@ -82,6 +89,7 @@ const drivesOfQAndL: FileFacts['drives'] = [
 export const qFiles: FileFacts = {
   subcommands: [0x0000],
   drives: drivesOfQAndL,
+  moduleIo: ofCpu,
   stopToChange: true,
   refusals: cpuRefusals,
   source: manual,
@@ -92,6 +100,7 @@ export const lFiles: FileFacts = { ...qFiles, subcommands: [0x0000, 0x0004] }
 export const anyFiles: FileFacts = {
   subcommands: [0x0000, 0x0004, 0x0040],
   drives: [0, 1, 2, 3, 4].map((number) => ({ number, title: `drive ${number}` })),
+  moduleIo: [...new Set([...ofCpu, ...ofRemoteHead])],
   stopToChange: false,
   refusals: cpuRefusals,
   source: manual,
@@ -100,6 +109,7 @@ export const anyFiles: FileFacts = {
 export const noFileFacts: FileFacts = {
   subcommands: [],
   drives: [],
+  moduleIo: [],
   stopToChange: false,
   refusals: cpuRefusals,
   source: 'no file commands',

@@ -1,5 +1,6 @@
 import type { CommandName } from '../commands/commands'
 import type { Lack, Profile } from '../profile'
+import { remoteHeadFiles } from './files'
 import { iqR } from './iq-r'
 import { labelCommandNames } from './no-labels'
 import { networks } from './reach'
@@ -32,6 +33,7 @@ export const remoteHead: Profile = {
     doubtful('lock', 'The remote password belongs to the connected station.', 'Give it for the connected station.'),
   ],
   exclusions: [],
+  files: remoteHeadFiles,
   ranges: { points: {}, source: 'not in the manuals at hand: no device number is checked' },
   inFlight: {
     tcp: 1,
