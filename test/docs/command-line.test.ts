@@ -1,4 +1,7 @@
 /** The commands shown in the documentation run as they stand there, and every command and option of the help is in docs/cli.md. */
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { join } from 'node:path'
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import { exitCodes } from '../../src/cli/exit-code'
 import { runProgram } from '../../src/cli/program'
@@ -52,8 +55,20 @@ async function commandsOf(): Promise<string[]> {
 
 describe('the line', () => {
   const bench = new Bench()
-  beforeAll(() => bench.open())
-  afterAll(() => bench.close())
+  const home = process.cwd()
+  const folder = mkdtempSync(join(tmpdir(), 'melsec-jw-'))
+  beforeAll(async () => {
+    // Files of the reader's computer that the lines name.
+    mkdirSync(join(folder, 'backup'))
+    writeFileSync(join(folder, 'recipe.csv'), 'A,72.5,15\r\n')
+    process.chdir(folder)
+    await bench.open()
+  })
+  afterAll(async () => {
+    process.chdir(home)
+    rmSync(folder, { recursive: true, force: true })
+    await bench.close()
+  })
 
   /** They go on until Ctrl-C. */
   const endless = ['simulate', 'listen']
