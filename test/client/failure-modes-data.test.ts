@@ -254,7 +254,7 @@ describe('9: addresses that mean another device without any error', () => {
         'D4294967296',
         'DFF',
         'M1F',
-        'WXYZ',
+        'WXYZ1',
         'X1G',
         'B',
         'D 1',
