@@ -11,12 +11,12 @@ import {
 } from '../src/index'
 import type { Connection } from './connection'
 import { refusal } from './failure'
+import { type Input, inputIn } from './input'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
 import { jsonOf, requestCheck } from './request-check'
 import { textIn, wordIn } from './stored'
 import { sharedTexts, type Texts } from './texts'
-import { evaluate } from './typed-input'
 
 const migrations: readonly Migration[] = []
 
@@ -27,8 +27,6 @@ const accesses = ['read', 'write'] as const
 const messageTypes = ['json', 'msg', 'flow', 'global', 'env', 'jsonata'] as const
 const numberTypes = ['num', 'msg', 'flow', 'global', 'env', 'jsonata'] as const
 const valueTypes = ['msg', 'json', 'flow', 'global', 'jsonata'] as const
-
-type Input<T> = (message: Parameters<Work>[0]) => Promise<T>
 
 function prepare(settings: StoredSettings, tools: Tools): Work {
   return wordIn(settings, 'mode', modes, tools.texts) === 'command'
@@ -111,16 +109,6 @@ function placeIn(settings: StoredSettings, texts: Texts): ModulePlace {
   }
   const slot0 = wordIn(settings, 'slot0', ['', '0', '1'], texts)
   return { startIo: Number.parseInt(text, 16), ...(slot0 === '' ? {} : { slot0: Number(slot0) }) }
-}
-
-function inputIn<const T extends string>(
-  settings: StoredSettings,
-  field: string,
-  types: readonly [T, ...T[]],
-  { RED, node, texts }: Tools,
-): Input<unknown> {
-  const input = { value: textIn(settings, field, texts), type: wordIn(settings, `${field}Type`, types, texts) }
-  return (message) => evaluate(RED, node, message, input)
 }
 
 /** A number, or one as text: environment variables are texts. An empty text is none. */

@@ -32,23 +32,30 @@ export interface UserType {
   readonly type: string
   readonly migrations: readonly Migration[]
   /** It may change the PLC: a deploy waits for what is under way, and no outcome is kept quiet. */
-  readonly changesPlc: boolean
+  readonly changesPlc: boolean | ((settings: StoredSettings) => boolean)
+  /** A deploy waits even where nothing is changed: something has to be put in order again. */
+  readonly putsInOrder?: true
   /**
    * Reads the settings once.
    * @throws NodeFailure when they are wrong; every message then ends with it.
    */
-  readonly prepare: (settings: StoredSettings, tools: Tools) => Work
+  readonly prepare: (settings: StoredSettings, tools: Tools, display: Display) => Work
   /** What the editor knows of the library, so that nothing is written twice. Node-RED wants names such as `melsecJwReadTypes`. */
   readonly editorSettings?: Readonly<Record<string, { readonly value: unknown; readonly exportable: true }>>
+  /** What Node-RED keeps apart from the flow and does not export. */
+  readonly credentials?: Readonly<Record<string, { readonly type: 'password' }>>
 }
 
 export function registerUser(RED: NodeAPI, type: UserType): void {
-  const { editorSettings } = type
+  const { editorSettings, credentials } = type
   function construct(this: Node, stored: NodeDef): void {
     RED.nodes.createNode(this, stored)
     start(RED, this, type, { ...stored })
   }
-  RED.nodes.registerType(type.type, construct, editorSettings === undefined ? {} : { settings: { ...editorSettings } })
+  RED.nodes.registerType(type.type, construct, {
+    ...(editorSettings === undefined ? {} : { settings: { ...editorSettings } }),
+    ...(credentials === undefined ? {} : { credentials: { ...credentials } }),
+  })
 }
 
 /** Settings at the version the node reads. @throws NodeFailure when a newer version of the package made them. */
@@ -62,9 +69,11 @@ export function readSettings(stored: StoredSettings, migrations: readonly Migrat
 
 function start(RED: NodeAPI, node: Node, type: UserType, stored: StoredSettings): void {
   begin(RED, node, stored, type.migrations, (settings, tools, display) => {
-    const work = type.prepare(settings, tools)
+    const work = type.prepare(settings, tools, display)
     const { connection, texts } = tools
-    return () => serve(node, { work, connection, display, texts, changesPlc: type.changesPlc })
+    const changesPlc = typeof type.changesPlc === 'function' ? type.changesPlc(settings) : type.changesPlc
+    const waits = changesPlc || type.putsInOrder === true
+    return () => serve(node, { work, connection, display, texts, changesPlc, waits })
   })
 }
 
@@ -111,6 +120,8 @@ interface Service {
   readonly display: Display
   readonly texts: Texts
   readonly changesPlc: boolean
+  /** Closing the connection waits for what is under way. */
+  readonly waits: boolean
 }
 
 function serve(node: Node, service: Service): void {
@@ -122,7 +133,7 @@ function serve(node: Node, service: Service): void {
     const handled = handle(service, message, send, done, () => closed || service.connection.closed)
     // What is wrong here is no result of the work, which handle() settles: it must be seen and must not end Node-RED.
     handled.catch((error: unknown) => node.error(error))
-    if (service.changesPlc) service.connection.track(handled.catch(() => undefined))
+    if (service.waits) service.connection.track(handled.catch(() => undefined))
   })
 }
 

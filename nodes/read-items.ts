@@ -1,6 +1,7 @@
 // What a read node reads: the rows of its list, or addresses out of the message or the context.
 import type { Item } from '../src/index'
 import { refusal } from './failure'
+import { kindOf } from './kind'
 import type { Texts } from './texts'
 
 /** Items with the names that the message will call them by. */
@@ -34,8 +35,7 @@ function named(item: Item): [string, Item] {
 
 function checked(item: unknown, texts: Texts): Item {
   if (isItem(item)) return item
-  const kind = item === undefined || item === null ? String(item) : Array.isArray(item) ? 'array' : typeof item
-  throw refusal('BAD_INPUT', texts('error.notAddress', { kind }))
+  throw refusal('BAD_INPUT', texts('error.notAddress', { kind: kindOf(item) }))
 }
 
 function isItem(given: unknown): given is Item {

@@ -90,6 +90,11 @@ export class Display implements ConnectionUser {
     if (this.#state !== undefined) this.#show(ofState(this.#state))
   }
 
+  /** A file is under way. */
+  transferring(what: 'reading' | 'writing', percent: number): void {
+    this.#show({ fill: 'blue', shape: 'dot', text: this.texts(`status.${what}`, { percent }) })
+  }
+
   /** Some items of several failed, and the rest was delivered. */
   partly(failed: number, all: number): void {
     this.#show({ fill: 'yellow', shape: 'dot', text: this.texts('status.partly', { failed, all }) })

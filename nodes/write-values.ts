@@ -1,6 +1,7 @@
 // What a write node writes: values of its rows, or values by name or address out of the message.
 import type { Item, PlcValue } from '../src/index'
 import { refusal } from './failure'
+import { kindOf } from './kind'
 import { type ItemRow, itemOf, nameOf } from './stored'
 import type { Texts } from './texts'
 
@@ -19,8 +20,7 @@ export interface NamedEntry {
  */
 export function entriesByName(given: unknown, rows: readonly ItemRow[], texts: Texts): NamedEntry[] {
   if (typeof given !== 'object' || given === null || Array.isArray(given) || Buffer.isBuffer(given)) {
-    const kind = given === undefined || given === null ? String(given) : Array.isArray(given) ? 'array' : typeof given
-    throw refusal('BAD_INPUT', texts('error.notValues', { kind }))
+    throw refusal('BAD_INPUT', texts('error.notValues', { kind: kindOf(given) }))
   }
   const entries = Object.entries(given)
   if (entries.length === 0) throw refusal('BAD_INPUT', texts('error.noValues'))
@@ -34,8 +34,7 @@ export function entriesByName(given: unknown, rows: readonly ItemRow[], texts: T
 export function writable(name: string, value: unknown, texts: Texts): WritableValue {
   if (isPlcValue(value)) return value
   if (Array.isArray(value) && value.every(isPlcValue)) return value
-  const kind = value === undefined || value === null ? String(value) : Array.isArray(value) ? 'array' : typeof value
-  throw refusal('BAD_VALUE', texts('error.notWritable', { name, kind }), { field: name })
+  throw refusal('BAD_VALUE', texts('error.notWritable', { name, kind: kindOf(value) }), { field: name })
 }
 
 function isPlcValue(value: unknown): value is PlcValue {

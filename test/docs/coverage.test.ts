@@ -290,11 +290,14 @@ describe('nodes', () => {
     expect(codeSpansOf(proseOf('README.md'))).toContain(name)
   })
 
-  test('commands of the control node are those in its page', () => {
-    const tree = [...nodesOf(parseTypeScript(readText('nodes/melsec-jw-control.ts')))]
-    const table = tree.find((node) => node.type === 'VariableDeclarator' && textOf(node.id) === 'commands')
+  test.each([
+    ['control', 'commands'],
+    ['file', 'actions'],
+  ])('what the %s node can do is in its page', (name, list) => {
+    const tree = [...nodesOf(parseTypeScript(readText(`nodes/melsec-jw-${name}.ts`)))]
+    const table = tree.find((node) => node.type === 'VariableDeclarator' && textOf(node.id) === list)
     const keys = [...nodesOf(table?.init)].find(({ type }) => type === 'ObjectExpression')?.properties
     const named = (keys as SyntaxNode[]).map(({ key }) => textOf(key))
-    expect(namesIn('docs/nodes/control.md', 'commands').sort()).toEqual(named.sort())
+    expect(namesIn(`docs/nodes/${name}.md`, list).sort()).toEqual(named.sort())
   })
 })

@@ -10,7 +10,17 @@ import { commands, devices, type PlcSimulator, profileIds, typeNames } from '../
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
-import { connectionTo, controlNode, ondemandNode, portOf, readNode, requestNode, startPlc, writeNode } from './flow'
+import {
+  connectionTo,
+  controlNode,
+  fileNode,
+  ondemandNode,
+  portOf,
+  readNode,
+  requestNode,
+  startPlc,
+  writeNode,
+} from './flow'
 
 const LANGUAGES = ['en-US', 'ja', 'zh-CN', 'zh-TW'] as const
 
@@ -29,6 +39,7 @@ beforeAll(async () => {
     controlNode({ commandType: 'command', command: 'stop', x: 200, y: 300 }),
     requestNode({ command: 'readWords', message: '{"head":"D100","points":1}', messageType: 'json', x: 200, y: 400 }),
     ondemandNode({ topic: 'batches', x: 200, y: 500 }),
+    fileNode({ action: 'read', file: '4:/LINE.CSV', x: 200, y: 600 }),
   ])
 }, 90_000)
 
@@ -109,6 +120,7 @@ describe('in English', () => {
     const labels = await category.locator('.red-ui-palette-label').allTextContents()
     expect(labels.map((label) => label.replaceAll(/\s+/g, ' ')).sort()).toEqual([
       'plc control',
+      'plc file',
       'plc ondemand',
       'plc read',
       'plc request',
@@ -119,11 +131,20 @@ describe('in English', () => {
 
   test('a node without a name is called by its first item', async () => {
     const labels = await page.locator('.red-ui-flow-node-label-text').allTextContents()
-    expect(labels).toEqual(expect.arrayContaining(['level +1', 'D112', 'remote STOP', 'Read (word units)', 'batches']))
+    expect(labels).toEqual(
+      expect.arrayContaining([
+        'level +1',
+        'D112',
+        'read a file 4:/LINE.CSV',
+        'remote STOP',
+        'Read (word units)',
+        'batches',
+      ]),
+    )
   })
 
   test('the statuses of the nodes are in words', async () => {
-    await expect(page.locator('.red-ui-flow-node-status-label', { hasText: 'connected' }).count()).resolves.toBe(5)
+    await expect(page.locator('.red-ui-flow-node-status-label', { hasText: 'connected' }).count()).resolves.toBe(6)
   })
 
   test('the read dialog says what each row will read, while it is typed', async () => {
@@ -264,6 +285,36 @@ describe('in English', () => {
     expect(await Promise.all(stored)).toEqual(['module', 'Q62DA', '0030', ''])
   })
 
+  test('the file dialog browses the drives of the PLC, and shows what the action needs', async () => {
+    await edit(page, 'file')
+    const browser = page.locator('#melsec-jw-browser')
+    await page.locator('#melsec-jw-browse').click()
+    await browser.getByRole('button', { name: 'LINE.CSV' }).waitFor()
+    await browser.getByRole('button', { name: 'ARCHIVE' }).click()
+    await browser.getByRole('button', { name: 'LINE2025.CSV' }).click()
+    expect(await page.locator('#node-input-file').inputValue()).toBe('4:/ARCHIVE/LINE2025.CSV')
+    await picture(page, 'file browse')
+    await browser.getByRole('button', { name: '4:/ARCHIVE/' }).click()
+    await browser.getByRole('button', { name: '4:/', exact: true }).click()
+    await browser.locator('button', { hasText: 'SD memory card' }).click()
+    await browser.getByRole('button', { name: 'LOGGING' }).waitFor()
+    await page.locator('#node-input-output').selectOption('text')
+    await page.locator('#node-input-encoding').selectOption('shift-jis')
+    expect(await page.getByText('This connection does not allow writing.').isVisible()).toBe(false)
+    await page.locator('#node-input-action').selectOption('write')
+    await page.getByText('This connection does not allow writing.').waitFor()
+    await page.locator('#node-input-mode').selectOption('replace')
+    await page.getByText('The old file stays until the new one is complete.').waitFor()
+    expect(await page.locator('#node-input-limit').isVisible()).toBe(false)
+    await page.locator('#node-input-password').fill('Sesame-1')
+    await picture(page, 'file')
+    await close(page, 'ok')
+    const stored = ['action', 'file', 'fileType', 'mode', 'encoding', 'password'].map((name) =>
+      property(page, 'file', name),
+    )
+    expect(await Promise.all(stored)).toEqual(['write', '2:/', 'str', 'replace', 'shift-jis', undefined])
+  })
+
   test('the test button shows the CPU and the round trip, and offers its series', async () => {
     await edit(page, 'plc')
     await page.locator('#node-config-input-profile').selectOption('generic')
@@ -318,6 +369,7 @@ describe('in English', () => {
       ['write', 'A write is never repeated'],
       ['control', 'Remote control of the CPU'],
       ['request', 'Any command of the manuals'],
+      ['file', 'Files on the drives of the CPU'],
       ['ondemand', 'Nothing is answered'],
       ['connection', 'How to reach a Mitsubishi MELSEC PLC'],
     ]) {
@@ -332,7 +384,7 @@ declare const $: (selector: string) => { text(): string }
 
 /** Every dialog, held against missing texts and texts that are too long for it. */
 async function lookThrough(page: Page, language: string): Promise<void> {
-  for (const id of ['read', 'write', 'control', 'request', 'ondemand', 'plc']) {
+  for (const id of ['read', 'write', 'control', 'request', 'ondemand', 'file', 'plc']) {
     await edit(page, id)
     const form = page.locator('.red-ui-tray-body .melsec-jw-form').last()
     const text = (await form.innerText()) + (await form.locator('option').allTextContents()).join('\n')

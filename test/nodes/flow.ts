@@ -54,6 +54,10 @@ export function requestNode(more: Settings = {}): FlowNode {
   return user('request', 'melsec-jw-request', more)
 }
 
+export function fileNode(more: Settings = {}): FlowNode {
+  return user('file', 'melsec-jw-file', { fileType: 'str', data: 'payload', dataType: 'msg', ...more })
+}
+
 export function catchNode(): FlowNode {
   return { id: 'catch', type: 'catch', scope: null, uncaught: false, wires: [[]] }
 }

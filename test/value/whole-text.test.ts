@@ -66,7 +66,7 @@ describe('refused', () => {
     expect(refusal('BAD_OPTION', () => bytesOfText('A', encoding))).toContain('shift-jis')
   })
 
-  test.each([undefined, 5, Buffer.from('A')])('%j is no text', (given) => {
+  test.each<unknown>([undefined, 5, Buffer.from('A')])('%j is no text', (given) => {
     expect(refusal('BAD_VALUE', () => bytesOfText(given as string, 'utf8'))).toContain('a string')
   })
 })
