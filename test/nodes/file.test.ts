@@ -3,7 +3,7 @@ import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, test } fr
 import type { FileEntry, PlcSimulator } from '../../src/index'
 import { until } from '../client/line'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
-import { type CaughtError, catchNode, connectionTo, fileNode, readNode, startPlc } from './flow'
+import { type CaughtError, catchNode, connectionTo, fileNode, readNode, startPlc, variable } from './flow'
 
 type Settings = Readonly<Record<string, unknown>>
 
@@ -268,6 +268,19 @@ describe('the password of a file', () => {
       expect(JSON.stringify([error, red.log])).not.toContain(password)
     },
   )
+
+  test('may be an environment variable; one that is not set is named', async () => {
+    const env = [{ name: 'FILE_PASSWORD', value: 'Sesame-1', type: 'str' }]
+    const tab = { id: 'own-tab', type: 'tab', label: 'own', env }
+    const node = (name: string) => ({ ...fileNode(secret(variable(name))), z: 'own-tab', x: 200, y: 100 })
+    await red.deploy([tab, writable(), node('FILE_PASSWORD'), { ...catchNode(), z: 'own-tab', x: 200, y: 200 }])
+    expect((await send()).payload).toEqual(Buffer.from('hidden'))
+    await red.deploy([tab, writable(), node('NOT_SET'), { ...catchNode(), z: 'own-tab', x: 200, y: 200 }])
+    expect((await caught()).error).toMatchObject({
+      code: 'NOT_CONFIGURED',
+      message: expect.stringContaining('NOT_SET'),
+    })
+  })
 
   test('without it the file is not read', async () => {
     expect(await failing({ action: 'read', file: '4:/SECRET.CSV' })).toMatchObject({ code: 'END_CODE' })

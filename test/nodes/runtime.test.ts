@@ -57,6 +57,8 @@ describe('for a user who may only look', () => {
     const settings = { host: '127.0.0.1', port: portOf(plc), profile: 'iq-r' }
     const before = plc.statistics.connections
     expect((await red.http('POST', 'melsec-jw/connection/test', { settings })).status).toBe(401)
+    const browse = { connection: 'plc', directory: '4:/' }
+    expect((await red.http('POST', 'melsec-jw/file/list', browse)).status).toBe(401)
     expect(plc.statistics.connections).toBe(before)
   })
 })
