@@ -141,7 +141,7 @@ type Send = (message: NodeMessage | (NodeMessage | NodeMessage[] | null)[]) => v
 type Done = (error?: Error) => void
 
 async function handle(
-  { work, display, texts, changesPlc }: Service,
+  { work, display, texts, changesPlc, waits }: Service,
   message: NodeMessageInFlow,
   send: Send,
   done: Done,
@@ -153,8 +153,10 @@ async function handle(
   } catch (error) {
     const failure = failureOf(error, texts)
     display.failed(failure)
-    // A value nobody waits for any more because of a deploy is no failure. A write is, whatever became of it.
-    const unwanted = !changesPlc && closing() && (failure.code === 'CLOSED' || failure.code === 'ABORTED')
+    // A value nobody waits for any more because of a deploy is no failure. A write is, whatever became of it, and so
+    // is what could not be put in order.
+    const ended = closing() && (failure.code === 'CLOSED' || failure.code === 'ABORTED')
+    const unwanted = ended && !changesPlc && (!waits || failure.outcome === 'notSent')
     done(unwanted ? undefined : failure)
     return
   }
