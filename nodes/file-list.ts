@@ -12,38 +12,30 @@ import { type Connection, connectionOf } from './connection'
 import { detailsOf } from './failure'
 import type { Texts } from './texts'
 
-/** ms for each request. */
-const QUESTION = 5_000
-
 export type Listed =
   | { readonly ok: true; readonly drives: readonly Pick<Drive, 'number' | 'title'>[] }
   | { readonly ok: true; readonly entries: readonly FileEntry[] }
   | { readonly ok: false; readonly message: string }
 
 export function fileList(RED: NodeAPI, texts: Texts): void {
-  endpoint(RED, '/melsec-jw/file/list', 'melsec-jw.write', texts, async (body, over): Promise<Reply> => {
+  endpoint(RED, '/melsec-jw/file/list', 'melsec-jw.write', texts, async (body): Promise<Reply> => {
     const { connection: id, directory } = body
     if (typeof id !== 'string' || typeof directory !== 'string') {
       return { status: 400, body: { message: texts('error.badBody') } }
     }
-    return { status: 200, body: await list(connectionOf(RED.nodes.getNode(id)), directory, over, texts) }
+    return { status: 200, body: await list(connectionOf(RED.nodes.getNode(id)), directory, texts) }
   })
 }
 
-async function list(
-  connection: Connection | undefined,
-  directory: string,
-  over: AbortSignal,
-  texts: Texts,
-): Promise<Listed> {
+async function list(connection: Connection | undefined, directory: string, texts: Texts): Promise<Listed> {
   try {
     if (connection === undefined) return { ok: false, message: texts('error.notDeployed') }
     const { client } = connection
     if (directory === '') {
       return { ok: true, drives: client.files.drives.map(({ number, title }) => ({ number, title })) }
     }
-    const entries = await client.files.list(directory, { timeout: QUESTION, signal: over })
-    return { ok: true, entries }
+    // Not given up earlier than by any node: that can cost the connection, and others use it.
+    return { ok: true, entries: await client.files.list(directory) }
   } catch (error) {
     return { ok: false, message: detailsOf(error, texts).message }
   } finally {
