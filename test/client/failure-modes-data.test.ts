@@ -252,7 +252,7 @@ describe('9: addresses that mean another device without any error', () => {
         'D-1',
         'D1.5:INT',
         'D4294967296',
-        'DFF',
+        'D1FF',
         'M1F',
         'WXYZ1',
         'X1G',
