@@ -10,6 +10,7 @@ import {
   PlcError,
   RequestError,
   TimeoutError,
+  UnfinishedError,
 } from '../src/index'
 import { languageOf, type Texts } from './texts'
 
@@ -110,6 +111,10 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
     }
   }
   if (error instanceof RequestError) return present({ field: error.field })
+  if (error instanceof UnfinishedError && error.cause instanceof PlcError) {
+    // Why it failed; the message says what is in the PLC now.
+    return { ...specific(error.cause, texts), message: error.message }
+  }
   if (error instanceof TimeoutError || error instanceof ConnectionError) {
     return error.causes.length === 0 ? {} : { causes: error.causes }
   }

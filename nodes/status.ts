@@ -36,6 +36,7 @@ const FAILURE_TEXTS = {
   ABORTED: 'closed',
   QUEUE_FULL: 'queueFull',
   NOT_VERIFIED: 'notVerified',
+  UNFINISHED: 'unfinished',
   NOT_CONFIGURED: 'badSettings',
   BAD_INPUT: 'badInput',
   READ_BACK: 'readBack',

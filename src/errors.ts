@@ -43,6 +43,7 @@ export type ConnectionErrorCode =
   | 'OFFLINE' // failing fast while the connection is being restored
 export type ClosedErrorCode = 'CLOSED' | 'ABORTED' | 'QUEUE_FULL'
 export type VerifyErrorCode = 'NOT_VERIFIED'
+export type UnfinishedErrorCode = 'UNFINISHED'
 export type PlcErrorCode =
   | RequestErrorCode
   | EndCodeErrorCode
@@ -51,6 +52,7 @@ export type PlcErrorCode =
   | ConnectionErrorCode
   | ClosedErrorCode
   | VerifyErrorCode
+  | UnfinishedErrorCode
 
 const BRAND = 'melsec-jw.error'
 
@@ -205,6 +207,19 @@ export class VerifyError extends PlcError {
     cause?: unknown,
   ) {
     super('VerifyError', message, cause)
+  }
+}
+
+/**
+ * A call of several requests that failed when some of them had changed the PLC already, as writing a file: the message
+ * says what is there now, and `cause` is what went wrong. The outcome is `unknown`, whatever that of the request that
+ * failed: neither was nothing sent, nor was nothing carried out. Look before you send it again.
+ */
+export class UnfinishedError extends PlcError {
+  readonly code = 'UNFINISHED'
+  readonly outcome = 'unknown'
+  constructor(message: string, cause: unknown) {
+    super('UnfinishedError', message, cause)
   }
 }
 

@@ -72,6 +72,7 @@ export {
   ProtocolError,
   RequestError,
   TimeoutError,
+  UnfinishedError,
   VerifyError,
 } from './errors'
 export { explainJwFrame } from './jw/explain-frame'

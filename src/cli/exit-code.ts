@@ -7,6 +7,7 @@ import {
   ProtocolError,
   RequestError,
   TimeoutError,
+  UnfinishedError,
   VerifyError,
 } from '../index'
 
@@ -18,7 +19,7 @@ export const exitCodes = {
   refused: { code: 3, meaning: 'the PLC refused it (end code)' },
   unreachable: { code: 4, meaning: 'no connection, or no answer in time' },
   protocol: { code: 5, meaning: 'what was received breaks the protocol; of decode: the frame is wrong' },
-  partly: { code: 6, meaning: 'some items failed, others did not' },
+  partly: { code: 6, meaning: 'some items failed, others did not; or a file was begun and not finished' },
   notVerified: { code: 7, meaning: 'carried out, but the CPU is not in the state it was to be in, or does not tell' },
 } as const
 
@@ -30,6 +31,7 @@ export function exitOf(error: PlcError): number {
   if (error instanceof ClosedError && error.cause instanceof PlcError) return exitOf(error.cause)
   if (error instanceof RequestError) return exitCodes.usage.code
   if (error instanceof EndCodeError) return exitCodes.refused.code
+  if (error instanceof UnfinishedError) return exitCodes.partly.code
   if (error instanceof VerifyError) return exitCodes.notVerified.code
   if (error instanceof ProtocolError) return exitCodes.protocol.code
   if (error instanceof ConnectionError || error instanceof TimeoutError || error instanceof ClosedError) {

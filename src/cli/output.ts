@@ -3,10 +3,11 @@ import {
   ConnectionError,
   EndCodeError,
   type PlanDescription,
-  type PlcError,
+  PlcError,
   type ReadValue,
   RequestError,
   TimeoutError,
+  UnfinishedError,
 } from '../index'
 import type { Terminal } from './terminal'
 
@@ -79,6 +80,7 @@ export function errorData(error: PlcError): Readonly<Record<string, unknown>> {
     ...(error instanceof EndCodeError
       ? { endCode: error.endCode, meaning: error.meaning, remedy: error.remedy, station: error.station }
       : {}),
+    ...(error instanceof UnfinishedError && error.cause instanceof PlcError ? { cause: errorData(error.cause) } : {}),
     ...(causesOf(error).length === 0 ? {} : { causes: causesOf(error) }),
   }
 }

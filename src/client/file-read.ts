@@ -32,8 +32,7 @@ export async function* readChunks(calls: FileCalls, place: FilePlace, reading: R
     }
   } catch (error) {
     failed = true
-    await alsoAfter(error, notClosed(place), () => file.close())
-    throw error
+    throw await alsoAfter(error, notClosed(place), () => file.close())
   } finally {
     if (!failed) await file.close()
   }

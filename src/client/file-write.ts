@@ -6,7 +6,17 @@ import { type FileEntry, listDirectory, statOf } from './file-list'
 import { type FilePlace, inside } from './file-place'
 import type { FileProgress } from './file-read'
 import { shown } from './given'
-import { alsoAfter, chunksOf, type FileCalls, note, type OpenFile, withOpenFile } from './open-file'
+import {
+  chunksOf,
+  type FileCalls,
+  type FileSend,
+  isUnknown,
+  note,
+  type OpenFile,
+  textOf,
+  unfinished,
+  withOpenFile,
+} from './open-file'
 import { tell } from './tell'
 
 export type WriteMode = 'new' | 'replace' | 'overwrite'
@@ -84,19 +94,42 @@ async function overwrite(
     const message = `${place.text} ${found}: only a file of the same size can be overwritten. Use 'new' or 'replace'.`
     throw new RequestError('BAD_OPTION', message, 'mode')
   }
-  await withOpenFile(calls, place, 'write', writing.password, (file) => fill(file, place, writing))
+  let done = 0
+  const onProgress: Writing['onProgress'] = (progress) => {
+    done = progress.done
+    writing.onProgress(progress)
+  }
+  try {
+    await withOpenFile(calls, place, 'write', writing.password, (file) => fill(file, place, { ...writing, onProgress }))
+  } catch (error) {
+    if (done > 0) throw unfinished(error, `${place.text}: ${done} of its ${size} bytes are overwritten.`)
+    throw isUnknown(error) ? note(error, `It was about ${place.text}.`) : error
+  }
 }
 
 /** Makes a file that does not exist. One that stays unfinished is removed again. */
 async function create(calls: FileCalls, place: FilePlace, writing: Writing): Promise<void> {
   const { password, content } = writing
-  await calls.send(commands.newFile, { password, drive: place.drive, size: content.size, name: place.path })
+  const message = { password, drive: place.drive, size: content.size, name: place.path }
+  // Given up on the way nobody knew whether there is a file to be removed.
+  await calls.send(commands.newFile, message, { unaborted: 'onceSent' }).catch((error) => {
+    throw isUnknown(error) ? note(error, `${place.text} may be there, unfinished.`) : error
+  })
   try {
     await withOpenFile(calls, place, 'write', password, (file) => fill(file, place, writing))
   } catch (error) {
-    const what = `${place.text} is unfinished and could not be removed`
-    await alsoAfter(error, what, () => remove(calls, { place, password }, { unaborted: 'always' }))
-    throw error
+    throw await without(calls, { place, password }, error, `${place.text} is unfinished`)
+  }
+}
+
+/** Removes what a failed transfer has made. @returns its error; when that fails too, one that says what is left */
+async function without(calls: FileCalls, file: ProtectedFile, error: unknown, state: string): Promise<unknown> {
+  try {
+    await remove(calls, file, { unaborted: 'always' })
+    return error
+  } catch (second) {
+    const why = `could not be removed (${textOf(second)})`
+    return unfinished(error, `${state}. ${file.place.text} ${why}. What failed first:`)
   }
 }
 
@@ -127,15 +160,25 @@ async function byWayOfAnother(calls: FileCalls, place: FilePlace, writing: Writi
   // The password is the copy's: with subcommand 0040 New File takes none.
   const temporary = { place: await temporaryBeside(calls, place), password: '' }
   await create(calls, temporary.place, { ...writing, password: '' })
-  try {
-    if (old !== undefined) await remove(calls, { place, password })
-    await copyFile(calls, temporary, { place, password })
-  } catch (error) {
-    // It may be the only copy by now, so it stays.
-    note(error, `The new content is in ${temporary.place.text}.`)
-    throw error
+  const target = { place, password }
+  const kept = `the new content is in ${temporary.place.text}`
+  if (old !== undefined) {
+    await remove(calls, target, { unaborted: 'onceSent' }).catch(async (error) => {
+      if (isUnknown(error)) throw unfinished(error, `Whether ${old.path} is still there is not known; ${kept}.`)
+      throw await without(calls, temporary, error, `${old.path} is as it was`)
+    })
   }
-  await remove(calls, temporary)
+  // With the old file gone there is no way but on: it is not aborted any more.
+  await copyFile(calls, temporary, target, { unaborted: old === undefined ? 'onceSent' : 'always' }).catch(
+    async (error) => {
+      if (old !== undefined) throw unfinished(error, `The old ${place.text} is removed; ${kept}, to be copied.`)
+      if (isUnknown(error)) throw unfinished(error, `Whether ${place.text} was made is not known; ${kept}.`)
+      throw await without(calls, temporary, error, `${place.text} was not made`)
+    },
+  )
+  await remove(calls, temporary, { unaborted: 'always' }).catch((error) => {
+    throw unfinished(error, `${place.text} is written; only ${temporary.place.text} is still there, or may be.`)
+  })
 }
 
 async function temporaryBeside(calls: FileCalls, { drive, directory, text }: FilePlace): Promise<FilePlace> {
@@ -148,21 +191,23 @@ async function temporaryBeside(calls: FileCalls, { drive, directory, text }: Fil
   throw new RequestError('BAD_ADDRESS', message)
 }
 
-export async function copyFile(calls: FileCalls, from: ProtectedFile, to: ProtectedFile): Promise<void> {
-  await calls.send(commands.copyFile, {
+export async function copyFile(
+  calls: FileCalls,
+  from: ProtectedFile,
+  to: ProtectedFile,
+  options: FileSend = {},
+): Promise<void> {
+  const message = {
     destinationPassword: to.password,
     destinationDrive: to.place.drive,
     destinationName: to.place.path,
     sourcePassword: from.password,
     sourceDrive: from.place.drive,
     sourceName: from.place.path,
-  })
+  }
+  await calls.send(commands.copyFile, message, options)
 }
 
-async function remove(
-  calls: FileCalls,
-  { place, password }: ProtectedFile,
-  options: { readonly unaborted?: 'always' } = {},
-): Promise<void> {
+async function remove(calls: FileCalls, { place, password }: ProtectedFile, options: FileSend): Promise<void> {
   await calls.send(commands.deleteFile, { password, drive: place.drive, name: place.path }, options)
 }

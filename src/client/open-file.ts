@@ -1,5 +1,5 @@
 // A file while it is open in the PLC: it is locked there until it is closed, so it is closed whatever happens.
-import { ClosedError, ProtocolError, RequestError } from '../errors'
+import { ClosedError, PlcError, ProtocolError, RequestError, UnfinishedError } from '../errors'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import type { FilePlace } from './file-place'
@@ -40,12 +40,13 @@ export async function withOpenFile<T>(
   try {
     result = await use(file)
   } catch (error) {
-    await alsoAfter(error, notClosed(place), () => file.close())
-    throw error
+    throw await alsoAfter(error, notClosed(place), () => file.close())
   }
   await file.close()
   return result
 }
+
+const LOCKED = 'it may be locked there until closeAll() or its restart'
 
 /** What is wrong when closing fails. */
 export function notClosed(place: FilePlace): string {
@@ -57,17 +58,34 @@ function hasMessage(error: unknown): error is { message: string } {
   return typeof error === 'object' && error !== null && 'message' in error && typeof error.message === 'string'
 }
 
-/** Says more in an error. */
-export function note(error: unknown, text: string): void {
-  if (hasMessage(error)) error.message = `${error.message} ${text}`
+export function textOf(error: unknown): string {
+  return hasMessage(error) ? error.message : String(error)
 }
 
-/** Does what must follow an error; when that fails too, the error says so. */
-export async function alsoAfter(error: unknown, what: string, run: () => Promise<void>): Promise<void> {
+/** Says more in an error. @returns the error, or one in its place: those of an AbortSignal cannot be changed */
+export function note(error: unknown, text: string): unknown {
+  if (!(error instanceof PlcError)) return unfinished(error, text)
+  error.message = `${error.message} ${text}`
+  return error
+}
+
+/** The error of a call that has changed the PLC already. @param text what is there now */
+export function unfinished(error: unknown, text: string): UnfinishedError {
+  return new UnfinishedError(`${text} ${textOf(error)}`, error)
+}
+
+/** Whether nobody knows if the PLC has carried the request out. */
+export function isUnknown(error: unknown): boolean {
+  return !(error instanceof PlcError) || error.outcome === 'unknown'
+}
+
+/** Does what must follow an error. @returns the error; when that fails too, it says so */
+export async function alsoAfter(error: unknown, what: string, run: () => Promise<void>): Promise<unknown> {
   try {
     await run()
+    return error
   } catch (second) {
-    note(error, `${what}: ${hasMessage(second) ? second.message : String(second)}`)
+    return note(error, `${what}: ${textOf(second)}`)
   }
 }
 
@@ -90,7 +108,9 @@ export class OpenFile {
     const { drive, path: name } = place
     const message = { password, mode: MODES[mode], drive, name }
     // Given up on the way it would be open and nobody knew its pointer.
-    const { pointer } = await calls.send(commands.openFile, message, { unaborted: 'onceSent' })
+    const { pointer } = await calls.send(commands.openFile, message, { unaborted: 'onceSent' }).catch((error) => {
+      throw isUnknown(error) ? note(error, `If the PLC has opened ${place.text}, ${LOCKED}.`) : error
+    })
     const file = new OpenFile(calls, place, pointer)
     calls.open.add(file)
     return file

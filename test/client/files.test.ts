@@ -32,7 +32,7 @@ async function join(
 ): Promise<Joined> {
   const code = client.code ?? 'binary'
   const simulator = createPlcSimulator({ profile, code, ...options })
-  await simulator.listen({ tcp: 0, udp: 0 })
+  await simulator.listen()
   closing.push(() => simulator.close())
   const port = (client.transport === 'udp' ? simulator.udp?.port : simulator.tcp?.port) ?? 0
   const plc = createMelsecClient({ host: '127.0.0.1', port, profile, allowWrites: true, ...client })
