@@ -23,6 +23,8 @@ export interface Answer {
   readonly messages: readonly NodeMessage[]
   /** Items that failed while others were delivered. */
   readonly partly?: { readonly failed: number; readonly all: number }
+  /** Carried out, but whether it has its effect could not be looked at. */
+  readonly unverified?: true
 }
 
 export type Work = (message: NodeMessageInFlow) => Promise<Answer>
@@ -141,7 +143,7 @@ type Send = (message: NodeMessage | (NodeMessage | NodeMessage[] | null)[]) => v
 type Done = (error?: Error) => void
 
 async function handle(
-  { work, display, texts, changesPlc, waits }: Service,
+  { work, display, texts, changesPlc }: Service,
   message: NodeMessageInFlow,
   send: Send,
   done: Done,
@@ -153,15 +155,14 @@ async function handle(
   } catch (error) {
     const failure = failureOf(error, texts)
     display.failed(failure)
-    // A value nobody waits for any more because of a deploy is no failure. A write is, whatever became of it, and so
-    // is what could not be put in order.
-    const ended = closing() && (failure.code === 'CLOSED' || failure.code === 'ABORTED')
-    const unwanted = ended && !changesPlc && (!waits || failure.outcome === 'notSent')
+    // A value nobody waits for any more because of a deploy is no failure. A write is, whatever became of it.
+    const unwanted = !changesPlc && closing() && (failure.code === 'CLOSED' || failure.code === 'ABORTED')
     done(unwanted ? undefined : failure)
     return
   }
-  if (answer.partly === undefined) display.succeeded()
-  else display.partly(answer.partly.failed, answer.partly.all)
+  if (answer.partly !== undefined) display.partly(answer.partly.failed, answer.partly.all)
+  else if (answer.unverified === true) display.unverified()
+  else display.succeeded()
   const [first, ...more] = answer.messages
   if (first !== undefined) send(more.length === 0 ? first : [[...answer.messages]])
   done()

@@ -85,7 +85,9 @@ export async function alsoAfter(error: unknown, what: string, run: () => Promise
     await run()
     return error
   } catch (second) {
-    return note(error, `${what}: ${textOf(second)}`)
+    const left = `${what}: ${textOf(second)}`
+    // Nobody may take it for a call that has left nothing behind.
+    return isUnknown(error) ? note(error, left) : unfinished(error, `${left} What failed first:`)
   }
 }
 

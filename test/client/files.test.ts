@@ -338,6 +338,20 @@ describe('whatever happens, the file is closed', () => {
     expect(simulator.files.open).toEqual([])
   })
 
+  test('and says so when it cannot be: nobody may think that nothing is left behind', async () => {
+    const { plc, simulator } = await join('iq-r')
+    simulator.files.write(4, 'A.CSV', bytes(50_000))
+    simulator.faults.add({ kind: 'endCode', endCode: 0xc056, commands: ['closeFile'] })
+    const controller = new AbortController()
+    const onProgress = () => controller.abort()
+    const error = await thrown(plc.files.read('4:A.CSV', { signal: controller.signal, onProgress }))
+    expect(error).toMatchObject({ code: 'UNFINISHED', outcome: 'unknown', cause: { code: 'ABORTED' } })
+    expect(String(error)).toMatch(
+      /A\.CSV could not be closed, and may be locked in the PLC.* What failed first: .*aborted/,
+    )
+    expect(simulator.files.open).toHaveLength(1)
+  })
+
   test('when it is larger than the limit', async () => {
     const { plc, simulator } = await join('iq-r')
     simulator.files.write(4, 'A.CSV', bytes(5000))

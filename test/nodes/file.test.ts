@@ -338,6 +338,19 @@ describe('a long transfer', () => {
     expect(red.log).toEqual([])
   })
 
+  test('that is read and cannot be closed is an error all the same', async () => {
+    plc.files.write(4, 'LONG.BIN', bytes)
+    slow('readFile', 50)
+    plc.faults.add({ kind: 'endCode', endCode: 0xc056, commands: ['closeFile'] })
+    await red.deploy([connectionTo(plc), fileNode({ action: 'read', file: '4:/LONG.BIN' })])
+    await red.receive('file', {})
+    await red.status('file', { fill: 'blue' })
+    await red.deploy([])
+    expect(await red.completed('file')).toMatchObject({
+      error: { code: 'UNFINISHED', message: expect.stringContaining('may be locked'), cause: { outcome: 'unknown' } },
+    })
+  })
+
   test('that is written is waited for', async () => {
     slow('writeFile', 20)
     await red.deploy([writable(), fileNode({ action: 'write', file: '4:/A.BIN' })])
@@ -359,6 +372,19 @@ describe('a long transfer', () => {
     expect(await red.completed('file')).toMatchObject({ error: { code: 'ABORTED' } })
     expect(await red.completed('file')).toMatchObject({ error: { code: 'CLOSED', cause: { outcome: 'notSent' } } })
     expect(content('A.BIN')).toBeUndefined()
+    expect(plc.files.open).toEqual([])
+  })
+
+  test('that overwrites and takes too long is told as unfinished', async () => {
+    plc.files.write(4, 'A.BIN', Buffer.alloc(LONG))
+    slow('writeFile', 200)
+    await red.deploy([writable(), fileNode({ action: 'write', file: '4:/A.BIN', mode: 'overwrite' })])
+    await red.receive('file', { payload: bytes })
+    await red.status('file', { fill: 'blue' })
+    await red.deploy([])
+    const { error } = await red.completed('file')
+    expect(error).toMatchObject({ code: 'UNFINISHED', cause: { outcome: 'unknown' } })
+    expect(error).toMatchObject({ message: expect.stringMatching(/A\.BIN: \d+ of its 76800 bytes are overwritten/) })
     expect(plc.files.open).toEqual([])
   })
 
