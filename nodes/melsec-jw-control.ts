@@ -1,6 +1,6 @@
 /** Node `melsec-jw-control`: remote control of the CPU and questions about the PLC itself. */
 import type { NodeAPI } from 'node-red'
-import type { ClearMode, MelsecClient } from '../src/index'
+import type { ClearMode, Control, MelsecClient } from '../src/index'
 import type { Connection } from './connection'
 import { refusal } from './failure'
 import type { Migration, StoredSettings } from './migration'
@@ -33,23 +33,26 @@ const commands = {
   clearError: { controls: true, run: (client) => nothing(client.clearError()) },
   run: {
     controls: true,
-    run: async (client, { force, clear, verify }) => {
-      await client.control.run({ force, clear, verify })
-      return { force, clear, ...verified(verify) }
+    run: async ({ control }, { force, clear, ...options }) => {
+      const { verify, told } = verification(control, options)
+      await control.run({ force, clear, verify })
+      return { force, clear, ...told }
     },
   },
   stop: {
     controls: true,
-    run: async (client, { verify }) => {
-      await client.control.stop({ verify })
-      return verified(verify)
+    run: async ({ control }, options) => {
+      const { verify, told } = verification(control, options)
+      await control.stop({ verify })
+      return told
     },
   },
   pause: {
     controls: true,
-    run: async (client, { force, verify }) => {
-      await client.control.pause({ force, verify })
-      return { force, ...verified(verify) }
+    run: async ({ control }, { force, ...options }) => {
+      const { verify, told } = verification(control, options)
+      await control.pause({ force, verify })
+      return { force, ...told }
     },
   },
   latchClear: { controls: true, run: (client) => nothing(client.control.latchClear()) },
@@ -58,9 +61,12 @@ const commands = {
 
 type CommandName = keyof typeof commands
 
-/** Only a state that was read back is told. */
-function verified(verify: boolean): { verified?: true } {
-  return verify ? { verified: true } : {}
+/**
+ * A STOP is not refused because nobody can see its effect: where the state of the CPU cannot be read, the command is
+ * carried out and told as not verified. Nothing but a state that was read back is told as verified.
+ */
+function verification({ verifiable }: Control, { verify }: Pick<Options, 'verify'>) {
+  return { verify: verify && verifiable, told: verify ? { verified: verifiable } : {} }
 }
 
 async function nothing(command: Promise<void>): Promise<object> {
@@ -84,8 +90,9 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
   return async (message) => {
     const given = fixed === undefined ? await evaluate(RED, node, message, { value, type }) : undefined
     const { name, options } = fixed === undefined ? chosen(given, usual, texts) : { name: fixed, options: usual }
-    message.payload = { command: name, ...(await carryOut(connection, name, options)) }
-    return { messages: [message] }
+    const told: { verified?: boolean } = await carryOut(connection, name, options)
+    message.payload = { command: name, ...told }
+    return { messages: [message], ...(told.verified === false ? { unverified: true } : {}) }
   }
 }
 

@@ -101,6 +101,11 @@ export class Display implements ConnectionUser {
     this.#show({ fill: 'yellow', shape: 'dot', text: this.texts('status.partly', { failed, all }) })
   }
 
+  /** Carried out, but whether it has its effect could not be looked at. */
+  unverified(): void {
+    this.#show({ fill: 'yellow', shape: 'dot', text: statusKey('notVerified') })
+  }
+
   failed({ code, endCode }: NodeFailure): void {
     if (code === 'OFFLINE' && this.#state !== undefined) this.#show(ofState(this.#state))
     else if (endCode === undefined) this.#show(ofCode(code))

@@ -49,6 +49,8 @@ export interface PauseOptions extends StopOptions {
  * The PLC forgets the remote state when it is powered off or reset.
  */
 export interface Control {
+  /** Whether `verify` can be asked for here: where the CPU tells its state is known and within reach. */
+  readonly verifiable: boolean
   /**
    * Remote RUN. With the switch of the CPU at STOP it completes normally, but the CPU stays in STOP.
    * @throws EndCodeError when another device stopped it and `force` is not given.
@@ -109,6 +111,7 @@ export function controlOf(parts: ControlParts): Control {
     await verify({ send, clock: parts.clock, status, deadline, command: title, wanted })
   }
   return {
+    verifiable: profile.remote.status !== undefined,
     run: async (options = {}) => {
       checkBooleans(options, ['force', 'verify'])
       const { force, clear = 'keep', ...call } = options

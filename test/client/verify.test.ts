@@ -105,6 +105,7 @@ describe('refused before anything is sent', () => {
           expect(error).toMatchObject({ code: 'UNSUPPORTED', outcome: 'notSent', field: 'verify' })
           expect(error.message).toContain('Leave verify out')
         }
+        expect(client.control.verifiable).toBe(false)
         expect(plc.statistics.requests).toBe(0)
         await client.control.stop()
         expect(plc.cpu.state).toBe('STOP')

@@ -250,6 +250,31 @@ describe('control', () => {
     expect(error.message).toContain('its RUN/STOP switch is at STOP')
   })
 
+  test.each([
+    ['1E frames', { profile: 'fx3' }, {}],
+    ['a profile that does not tell', {}, { profile: 'generic' }],
+  ] as const)('a STOP is never refused because its effect cannot be seen: %s', async (_, simulated, settings) => {
+    const other = await startPlc(simulated)
+    try {
+      await red.deploy([
+        connectionTo(other, { allowControl: true, ...settings }),
+        controlNode({ version: 2, verify: true }),
+      ])
+      for (const payload of ['stop', { command: 'stop', verify: true }]) {
+        expect((await send('control', { payload })).payload).toEqual({ command: 'stop', verified: false })
+        expect(other.cpu.state).toBe('STOP')
+      }
+      const text = '@melsec-jw/plc/melsec-jw-connection:status.notVerified'
+      await red.status('control', { fill: 'yellow', text })
+      // Without being asked for nothing is said of it.
+      const { payload } = await send('control', { payload: { command: 'run', verify: false } })
+      expect(payload).toEqual({ command: 'run', force: false, clear: 'keep' })
+      await red.status('control', { fill: 'green' })
+    } finally {
+      await other.close()
+    }
+  })
+
   test('a flow from before there was verify goes on without; the message may ask for it', async () => {
     await red.deploy([
       controllable(),
