@@ -128,15 +128,21 @@ describe('describe', () => {
         kind: 'list',
         count: 'wordBlockCount',
         item: [
-          { name: 'head', kind: 'device', doc: 'first device' },
+          { name: 'head', kind: 'device', doc: 'first device', takes: 'a device such as "D100"' },
           { name: 'points', kind: 'count', of: 'values', range: '1..' },
-          { name: 'values', kind: 'words', count: 'points' },
+          {
+            name: 'values',
+            kind: 'words',
+            count: 'points',
+            takes: 'an array of words (0 to 65535), 1 to 65535 elements',
+          },
         ],
+        takes: 'an array of objects with head, values, 0 to 255 elements',
       },
       expect.objectContaining({ name: 'bitBlocks', item: expect.anything() }),
     ])
     expect(describeShape({ a: u16({ default: 4, oneOf: [2, 4], multipleOf: 2 }) })).toEqual([
-      { name: 'a', kind: 'u16', multipleOf: 2, oneOf: [2, 4], default: 4 },
+      { name: 'a', kind: 'u16', multipleOf: 2, oneOf: [2, 4], default: 4, optional: true, takes: 'one of 2, 4' },
     ])
     expect(describeShape(commands.writeExtendUnit.request)).toEqual([
       expect.objectContaining({ name: 'address', multipleOf: 2 }),
@@ -146,9 +152,9 @@ describe('describe', () => {
     ])
     expect(describeShape({ a: fixed(7, 2, 'why'), b: u8({ max: 3 }), c: echo('b'), d: text(4) })).toEqual([
       { name: 'a', kind: 'fixed', value: 7, doc: 'why' },
-      { name: 'b', kind: 'u8', range: '0..3' },
+      { name: 'b', kind: 'u8', range: '0..3', takes: 'a whole number from 0 to 3' },
       { name: 'c', kind: 'echo', of: 'b' },
-      { name: 'd', kind: 'text', count: 4 },
+      { name: 'd', kind: 'text', count: 4, takes: 'a text, 4 characters' },
     ])
   })
 
