@@ -82,14 +82,17 @@ function memoryWork(settings: StoredSettings, tools: Tools): Work {
   if (wordIn(settings, 'access', accesses, texts) === 'read') {
     const points = inputIn(settings, 'points', numberTypes, tools)
     return async (message) => {
-      const [from, count] = [numberOf('address', await address(message), texts), await points(message)]
+      const [where, count] = await Promise.all([address(message), points(message)])
+      const from = numberOf('address', where, texts)
       message.payload = await of(connection.client).read(from, numberOf('points', count, texts))
       return { messages: [message] }
     }
   }
   const values = inputIn(settings, 'values', valueTypes, tools)
   return async (message) => {
-    const [from, given] = [numberOf('address', await address(message), texts), await values(message)]
+    // Both at once: flows change their messages and variables.
+    const [where, given] = await Promise.all([address(message), values(message)])
+    const from = numberOf('address', where, texts)
     await of(connection.clientFor('write')).write(from, wordsOf(given, texts))
     return { messages: [message] }
   }

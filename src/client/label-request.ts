@@ -182,7 +182,9 @@ function notAsked({ name }: ArrayRead): ProtocolError {
 
 /** Two writes of the same label: which one stays is sure only when they are sent one after the other. */
 function meets({ asked: a }: LabelWrite, { asked: b }: LabelWrite, isArray: boolean): boolean {
-  return isArray ? a.address.stem === b.address.stem : a.address.name === b.address.name
+  // Background: GX Works3 does not tell upper from lower case in the names of labels.
+  const [one, other] = isArray ? [a.address.stem, b.address.stem] : [a.address.name, b.address.name]
+  return one.toLowerCase() === other.toLowerCase()
 }
 
 /** Of what stands behind a write that failed. */

@@ -80,9 +80,11 @@ type Path = readonly (string | number)[]
 
 function bagFromJson(shape: Shape, given: unknown, path: Path, place: Place): Record<string, unknown> {
   if (!isObject(given)) {
+    // Who types a password here has forgotten the name of its field.
+    const what = hasSecret(shape) ? 'is none' : `is ${shown(given)}`
     refuse(
       path,
-      `is ${shown(given)}; ${path.length === 0 ? `the message of ${place.title}` : 'it'} is an object with ${namesOf(shape)}`,
+      `${what}; ${path.length === 0 ? `the message of ${place.title}` : 'it'} is an object with ${namesOf(shape)}`,
     )
   }
   for (const name of Object.keys(given)) checkName(shape, name, path)

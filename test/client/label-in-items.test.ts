@@ -18,6 +18,7 @@ beforeEach(async () => {
       Motor_1: { type: 'DINT', value: 7 },
       速度: { type: 'INT', value: 1500 },
       DD100: { type: 'INT', value: 99 },
+      'LINE1.MASK': { type: 'WORD', value: 0 },
       'DD1.Speed': { type: 'REAL', value: 0.25 },
     },
   })
@@ -355,6 +356,12 @@ describe('write', () => {
     const results = await client.write(items.map((item, at) => ({ item, value: at + 1 })))
     expect(results.every(({ ok }) => ok)).toBe(true)
     expect([plc.labels.get('Line1.Mask'), plc.labels.get('Motor_1')]).toEqual([3, 2])
+    expect(asked).toEqual(['readRandomLabels', 'writeRandomLabels', 'writeRandomLabels'])
+  })
+
+  test('a label in other letters may be the same one: it goes out behind the first', async () => {
+    const results = await client.write({ 'Line1.Mask': 1, 'label:LINE1.MASK': 2 })
+    expect(Object.values(results).every(({ ok }) => ok)).toBe(true)
     expect(asked).toEqual(['readRandomLabels', 'writeRandomLabels', 'writeRandomLabels'])
   })
 

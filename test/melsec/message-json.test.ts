@@ -196,6 +196,14 @@ describe('from JSON', () => {
     expect(refusal(unlock, json).message).not.toMatch(/hu|1234/)
     expect(refusal(unlock, json).field).toMatch(/password|length/)
   })
+
+  test('nor when it stands where the message should be', () => {
+    for (const command of [unlock, commands.openFile]) {
+      const { message } = refusal(command, 'hush-hush')
+      expect(message).not.toContain('hush')
+      expect(message).toContain('is an object with')
+    }
+  })
 })
 
 describe('to JSON', () => {
