@@ -32,8 +32,10 @@ export function filePartsOf({ settings, options, protocol, connection, permit }:
       send: async (command, message, how = {}) => {
         permit(command.effect, command.title)
         const exchange = protocol.exchange(command, message)
-        if (how.unaborted === 'onceSent' && signal?.aborted === true) throw aborted(command.title, signal)
-        const heard = how.unaborted !== undefined || signal === undefined ? unaborted : { ...unaborted, signal }
+        // Giving a request up on the way may cost the connection, and with it the way to close what is open.
+        const unheard = how.unaborted ?? (open.size > 0 ? 'onceSent' : undefined)
+        if (unheard === 'onceSent' && signal?.aborted === true) throw aborted(command.title, signal)
+        const heard = unheard !== undefined || signal === undefined ? unaborted : { ...unaborted, signal }
         const deadline = new Deadline(settings.clock, heard, settings.timeout)
         const bound = how.onlyOn === undefined ? {} : { onlyOn: how.onlyOn }
         return connection.request(exchange, { ...deadline.options(command.title), ...bound })

@@ -328,6 +328,20 @@ describe('whatever happens, the file is closed', () => {
     expect(plc.statistics.answered).toBeGreaterThanOrEqual(2)
   })
 
+  test.each(['4E', '3E'] as const)('when it is aborted, also in the middle of a request (%s)', async (frame) => {
+    const { plc, simulator } = await join('iq-r', { frame })
+    simulator.files.write(4, 'A.CSV', bytes(50_000))
+    const controller = new AbortController()
+    let reads = 0
+    plc.on('trace', ({ direction, text }) => {
+      if (direction === 'sent' && text.includes('Read File') && ++reads === 2) controller.abort()
+    })
+    expect(await thrown(plc.files.read('4:A.CSV', { signal: controller.signal }))).toMatchObject({ code: 'ABORTED' })
+    expect(reads).toBe(2)
+    expect(simulator.files.open).toEqual([])
+    expect(plc.statistics.disconnects).toBe(0)
+  })
+
   test('when it is aborted', async () => {
     const { plc, simulator } = await join('iq-r')
     simulator.files.write(4, 'A.CSV', bytes(50_000))
