@@ -5,7 +5,7 @@ import { join } from 'node:path'
 import { RequestError } from '../errors'
 import type { FileTime } from '../melsec/file-time'
 import { type Drive, type DriveEntry, type DrivePath, isPlainName } from './drive'
-import { fileTimeOf, msOf } from './file-clock'
+import { fileClock, msOf } from './file-clock'
 
 /** Directories and files that are looked at to tell how much room is left. */
 const LOOKED_AT = 10_000
@@ -156,7 +156,7 @@ function entryOf({ name, stat }: Found): DriveEntry {
     directory,
     // What is larger than its field can say is shown as large as that: it cannot be read to its end anyway.
     size: directory ? 0 : Math.min(stat.size, 0xffffffff),
-    modified: fileTimeOf(stat.mtimeMs),
+    modified: fileClock(stat.mtimeMs),
     readOnly: (stat.mode & OWNER_WRITES) === 0,
   }
 }

@@ -9,7 +9,7 @@ import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, re
 import { passwordProblem } from '../melsec/remote-password'
 import { type Clock, realClock } from '../transport/clock'
 import { drivesOf, type MountedDrive, type SimulatedDrives } from './drives'
-import { fileTimeOf } from './file-clock'
+import { fileClock } from './file-clock'
 import type { FilesParts } from './files'
 import type { Call } from './handlers'
 import { LabelTable, type SimulatedLabels } from './labels'
@@ -168,7 +168,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     extensions: options.extensions ?? {},
     bufferMemory: whole('bufferMemory', options.bufferMemory ?? 0, 0, 0x1000000),
     labels: new LabelTable(options.labels ?? {}),
-    drives: drivesOf(profile, options.drives ?? {}, fileTimeOf((options.clock ?? realClock).time())),
+    drives: drivesOf(profile, options.drives ?? {}, fileClock((options.clock ?? realClock).time())),
     maxOpenFiles: whole('maxOpenFiles', options.maxOpenFiles ?? 16, 1, 0x10000),
     fileLocks: oneOf('fileLocks', options.fileLocks ?? 'kept', ['kept', 'released']),
     password: passwordOf(profile, options.password),

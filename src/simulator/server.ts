@@ -18,7 +18,7 @@ import type { Cpu, StateChange } from './cpu'
 import type { ErrorLog } from './error-log'
 import { Emitter } from './events'
 import { type FaultSubject, Faults } from './faults'
-import { fileTimeOf } from './file-clock'
+import { fileClock } from './file-clock'
 import type { ProgramLabels } from './labels'
 import { chosen, type OnDemandData, type OnDemandOptions, onDemandBytes } from './on-demand'
 import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
@@ -170,7 +170,7 @@ class Simulator implements PlcSimulator {
   constructor(settings: Settings) {
     const { profile, clock, model, latch, extensions, bufferMemory, labels, resetAllowed, otherStations } = settings
     this.#settings = settings
-    const now = () => fileTimeOf(clock.time())
+    const now = () => fileClock(clock.time())
     this.profile = profile
     this.clock = clock
     this.#plc = new Plc({
