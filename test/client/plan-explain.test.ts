@@ -1,6 +1,6 @@
 import { describe, expect, test } from '@jest/globals'
 import { parseItem } from '../../src/client/item'
-import { explainItem, type DeviceExplanation } from '../../src/client/plan-explain'
+import { type DeviceExplanation, explainItem } from '../../src/client/plan-explain'
 import type { ProfileId } from '../../src/melsec/profile'
 import { protocolOf } from './plan-plc'
 
