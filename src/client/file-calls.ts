@@ -21,13 +21,16 @@ interface Lent {
 
 export function filePartsOf({ settings, options, protocol, connection, permit }: Lent): FileParts {
   const open = new Set<OpenFile>()
+  const closings = { count: 0 }
   return {
     profile: settings.profile,
     unusable: unusable(settings, options.localPort),
     permitWrite: (title) => permit('write', title),
     open,
+    closings,
     calls: ({ signal, ...unaborted }) => ({
       open,
+      closings,
       connection: () => connection.generation,
       send: async (command, message, how = {}) => {
         permit(command.effect, command.title)

@@ -85,7 +85,8 @@ export interface Files {
   setDate(file: FilePath, date: FileTime, options?: CallOptions): Promise<void>
   /**
    * Closes every file that the PLC has locked for this computer: what a transfer leaves whose connection was lost. Also
-   * files that other transfers have open.
+   * files that other transfers have open: those of this client end with CLOSED. Call it when no other client of this
+   * computer transfers files: its pointer would mean another file.
    */
   closeAll(options?: CallOptions): Promise<void>
 }
@@ -100,6 +101,8 @@ export interface FileParts {
   readonly calls: (options: CallOptions) => FileCalls
   /** What is open now. */
   readonly open: ReadonlySet<OpenFile>
+  /** How often all files were closed at once. */
+  readonly closings: { count: number }
 }
 
 /** Largest file that is read into memory without being asked for, bytes. */
@@ -195,6 +198,9 @@ export class FileAccess implements Files {
 
   async closeAll(options: CallOptions = {}): Promise<void> {
     checkBooleans(options, [])
+    // The next file that is opened gets the pointer of one of these, and must not get what is written to it.
+    this.#parts.closings.count++
+    for (const file of this.#parts.open) file.leave()
     // With this close type the number of the pointer does not matter.
     await this.#parts.calls(options).send(commands.closeFile, { pointer: 0, closeType: 1 })
   }

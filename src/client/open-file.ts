@@ -20,6 +20,8 @@ export interface FileCalls {
   connection(): number
   /** Files that are open over this client: they are closed before it is. */
   readonly open: Set<OpenFile>
+  /** How often all files were closed at once. */
+  readonly closings: { count: number }
 }
 
 /** Bytes of one request (SLMP reference manual 5.8, Read File and Write File). Offsets are multiples of it: even, and of 4. */
@@ -109,10 +111,14 @@ export class OpenFile {
   static async open(calls: FileCalls, place: FilePlace, mode: keyof typeof MODES, password: string): Promise<OpenFile> {
     const { drive, path: name } = place
     const message = { password, mode: MODES[mode], drive, name }
+    const { count } = calls.closings
     // Given up on the way it would be open and nobody knew its pointer.
     const { pointer } = await calls.send(commands.openFile, message, { unaborted: 'onceSent' }).catch((error) => {
       throw isUnknown(error) ? note(error, `If the PLC has opened ${place.text}, ${LOCKED}.`) : error
     })
+    if (calls.closings.count !== count) {
+      throw new ClosedError('CLOSED', `${place.text} was closed by closeAll() as soon as it was open.`)
+    }
     const file = new OpenFile(calls, place, pointer)
     calls.open.add(file)
     return file
@@ -150,9 +156,15 @@ export class OpenFile {
     }
   }
 
+  /** The PLC closes it without being told which: from now on its pointer may mean another file. */
+  leave(): void {
+    this.#closing ??= Promise.resolve()
+    this.#calls.open.delete(this)
+  }
+
   #send<C extends FileCommand>(command: C, message: RequestOf<C>): Promise<ResponseOf<C>> {
     if (this.#closing === undefined) return this.#request(command, message)
-    const text = `${command.title} was not sent: ${this.#place.text} is closed, because the client is.`
+    const text = `${command.title} was not sent: ${this.#place.text} has been closed: the client was, or closeAll() called.`
     return Promise.reject(new ClosedError('CLOSED', text))
   }
 

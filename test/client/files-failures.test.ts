@@ -131,3 +131,49 @@ describe.each(cases)('$title', (one) => {
     }, 60_000)
   })
 })
+
+test('after closeAll() a transfer does not go on in a file that has got its pointer', async () => {
+  const { plc, simulator } = await join({ title: '', profile: 'iq-r', name: 'A.CSV', mode: 'new' }, '4E')
+  const gates = { a: gate(), b: gate() }
+  const transfer = (name: string, part: Buffer, { begun, open }: Gate) => {
+    async function* parts() {
+      yield part
+      begun()
+      await open
+      yield part
+    }
+    return plc.files.write(`4:${name}`, parts(), { size: 2 * part.length }).catch((error: unknown) => error)
+  }
+  const part = Buffer.alloc(1920, 'a')
+  const a = transfer('A.CSV', part, gates.a)
+  await gates.a.reached
+  await plc.files.closeAll()
+  const b = transfer('B.CSV', Buffer.alloc(1920, 'b'), gates.b)
+  await gates.b.reached
+  gates.a.go()
+  expect(await a).toMatchObject({ code: 'CLOSED' })
+  gates.b.go()
+  expect(await b).toBeUndefined()
+  expect(simulator.files.read(4, 'B.CSV')).toEqual(Buffer.alloc(3840, 'b'))
+  expect(simulator.files.read(4, 'A.CSV')).toBeUndefined()
+  expect(simulator.files.open).toEqual([])
+})
+
+interface Gate {
+  readonly begun: () => void
+  readonly reached: Promise<void>
+  readonly go: () => void
+  readonly open: Promise<void>
+}
+
+function gate(): Gate {
+  let begun = () => {}
+  let go = () => {}
+  const reached = new Promise<void>((resolve) => {
+    begun = resolve
+  })
+  const open = new Promise<void>((resolve) => {
+    go = resolve
+  })
+  return { begun, reached, go, open }
+}
