@@ -4,7 +4,7 @@ import { join } from 'node:path'
 import { describe, expect, test } from '@jest/globals'
 import { detailsOf } from '../../nodes/failure'
 import type { Texts } from '../../nodes/texts'
-import { commands, EndCodeError, explainEndCode, type Language, languages } from '../../src/index'
+import { commands, EndCodeError, explainEndCode, type Language, languages, UnfinishedError } from '../../src/index'
 import { root } from '../support/root'
 
 /** The shared catalogue of a language, as Node-RED fills it in. */
@@ -76,4 +76,19 @@ describe('an end code', () => {
     expect(details).not.toHaveProperty('meaning')
     expect(details.message).toBe('refused')
   })
+})
+
+test.each(languages)('what was begun and not finished says in %s why, but not that nothing was done', (language) => {
+  const cause = refused(0xc056, 'Write File')
+  const error = new UnfinishedError('4:\\A.CSV: 1920 of its 4000 bytes are overwritten.', cause)
+  const { meaning, remedy } = explainEndCode(0xc056, { language }) ?? {}
+  expect(detailsOf(error, textsIn(language))).toMatchObject({
+    code: 'UNFINISHED',
+    outcome: 'unknown',
+    message: error.message,
+    endCode: 0xc056,
+    meaning,
+    remedy,
+  })
+  expect(textsIn(language)('status.unfinished')).not.toBe('undefined')
 })
