@@ -234,6 +234,8 @@ export interface Profile {
   /** Not on every CPU or module of the family: sent when asked for, never chosen by the planner. */
   readonly doubtful: readonly Lack[]
   readonly exclusions: readonly DeviceExclusion[]
+  /** What the port of this family does not take in 1E frames, beside what no 1E frame says. */
+  readonly exclusions1e?: readonly DeviceExclusion[]
   readonly limits: readonly LimitRule[]
   readonly ranges: DeviceRanges
   readonly refusals: Refusals

@@ -171,6 +171,10 @@ export class ACompatiblePort {
     }
     const problem = aCompatibleProblem(windows, name, device, points)
     if (problem !== undefined) throw new Refusal(END_CODES[problem.kind], problem.message)
+    const exclusion = this.#profile.exclusions1e?.find(
+      ({ commands, devices }) => commands.includes(HANDLED[name]) && devices.includes(device.device),
+    )
+    if (exclusion !== undefined) throw new Refusal(exclusion.endCode, exclusion.reason)
     return device
   }
 

@@ -103,6 +103,17 @@ describe('fx5-enet', () => {
       plc.write('D5', 7)
       expect(await client.read('D5')).toBe(7)
     }))
+
+  // FX5 communication manual 39.2, notes on command 03H.
+  test('in 1E frames it reads counters of 32 bits and does not write them', () =>
+    withLine('tcp 1E binary fx5-enet', {}, async ({ plc, client }) => {
+      plc.write('LCN3', 70_000)
+      expect(await client.read('LCN3')).toBe(70_000)
+      const before = plc.statistics.requests
+      expect(await failureOf(client.write('LCN3', 5))).toMatchObject({ code: 'UNSUPPORTED', outcome: 'notSent' })
+      expect(plc.statistics.requests).toBe(before)
+      expect(plc.read('LCN3')).toBe(70_000)
+    }))
 })
 
 describe('MELSEC-Q', () => {

@@ -237,3 +237,16 @@ describe('the port', () => {
     )
   })
 })
+
+describe('the Ethernet module, FX5 communication manual 39.1 and 39.2', () => {
+  test.each([
+    ['counters of 32 bits by 03H', '03ff0000c80000004e430200' + '05000000', 0x83],
+    ['contacts of timers by 05H', '05ff00000100' + '000000005354' + '0100', 0x85],
+  ])('refuses %s, which the CPU module takes', (_, request, subheader) => {
+    const answerOf = (profile: 'iq-f' | 'fx5-enet') => [
+      ...exchangeBytes(plcOf({ profile, frames: ['1E'] }), Buffer.from(request, 'hex')),
+    ]
+    expect(answerOf('fx5-enet')).toEqual([subheader, 0x56])
+    expect(answerOf('iq-f')).toEqual([subheader, 0x00])
+  })
+})

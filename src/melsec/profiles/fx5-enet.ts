@@ -64,6 +64,24 @@ export const fx5Enet: Profile = {
   ],
   limits,
   exclusions: iqF.exclusions,
+  exclusions1e: [
+    {
+      commands: ['writeWords'],
+      devices: ['LCN'],
+      endCode: 0x56,
+      reason: 'The Ethernet module does not write counters of 32 bits in a 1E frame.',
+      instead: 'Use a 3E frame, or a 1E frame to the Ethernet port of the CPU module.',
+      source: 'FX5 communication manual 39.2, batch write: notes on command 03H',
+    },
+    {
+      commands: ['writeRandomWords'],
+      devices: ['TS'],
+      endCode: 0x56,
+      reason: 'The Ethernet module does not take contacts of timers in Test in word units.',
+      instead: 'Use bit units.',
+      source: 'FX5 communication manual 39.1, footnote *4 (command 05H)',
+    },
+  ],
   refusals: {
     ...iqF.refusals,
     deviceName: 0xc05b,

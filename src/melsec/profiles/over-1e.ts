@@ -88,7 +88,7 @@ export function profileOver1e(profile: Profile, windows: readonly ACompatibleWin
     absentDevices: devices.map(({ name }) => name).filter((name) => !reached.has(name)),
     lacks: lacking().map(lackOf),
     doubtful: [],
-    exclusions,
+    exclusions: [...exclusions, ...(profile.exclusions1e ?? [])],
     limits: aCompatibleLimits.flatMap(ruleOf),
     // SD203 is outside what a 1E frame reaches, so the state cannot be read back.
     remote: { clearModes: [0], reset: profile.remote.reset, source: profile.remote.source },
