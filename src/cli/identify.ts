@@ -44,7 +44,7 @@ function show(terminal: Terminal, options: ConnectionOptions, client: MelsecClie
   terminal.out(
     table([
       ['PLC', linkText(options, client)],
-      ['Model', model],
+      ['Model', model.trim() === '' ? 'not told' : model],
       ['Model code', `${modelCode.toString(16).toUpperCase().padStart(4, '0')}H (${known})`],
       ...(series === undefined ? [] : [['Series', series]]),
       ...(profile === undefined ? [] : [['Profile', profileText(profile, client)]]),

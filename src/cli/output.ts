@@ -68,6 +68,13 @@ export function planText(description: PlanDescription, asJson: boolean): string 
   return [...(lines.length === 0 ? [] : [table(lines)]), ...description.notes].join('\n')
 }
 
+const PASSWORD_HINT = ' Say --password, or put it into the environment variable MELSEC_JW_PASSWORD.'
+
+/** The port waits for its remote password: what to do here the text of the end code cannot know. */
+function isLocked(error: PlcError): boolean {
+  return error instanceof EndCodeError && error.endCode === 0xc201
+}
+
 /** An error as data, with everything it knows. */
 export function errorData(error: PlcError): Readonly<Record<string, unknown>> {
   const { name, code, message, outcome } = error
@@ -92,7 +99,7 @@ function causesOf(error: PlcError): readonly string[] {
 /** An error with its ranked causes, one per line. */
 export function errorText(error: PlcError): string {
   const causes = causesOf(error)
-  if (causes.length === 0) return error.message
+  if (causes.length === 0) return `${error.message}${isLocked(error) ? PASSWORD_HINT : ''}`
   // For programs that print one line, messages end with their causes; here these get lines of their own.
   const message = error.message.replace(/\s*(Possible causes|Most likely|Likely): .*$/s, '')
   const ranked = causes.map((cause, i) => `  ${i + 1}. ${cause}`)

@@ -65,7 +65,7 @@ function details(profile: Profile): string {
     ['Transports', transports.join(', ')],
     ['X and Y', XY[xyRadix]],
     ['Without', absentDevices.length === 0 ? 'no device is missing' : absentDevices.join(' ')],
-    ['In flight', `${inFlight.tcp} over TCP, ${1 + inFlight.udpBuffer} over UDP with the 4E frame`],
+    ['In flight', inFlightText(profile)],
     ...inFlight.ports.map(({ port, buffer }) => ['', `1 + ${buffer} / connections over UDP: ${port}`]),
     ['Connections', `at most ${connections.most}`],
     ['Reaches', reach.stations === 'connected' ? 'the connected station only' : 'other stations, where its port does'],
@@ -79,8 +79,8 @@ function details(profile: Profile): string {
     ],
     ['Monitoring timer', monitoringTimer.zeroOnly ? '0 only' : `usually ${monitoringTimer.default} ms`],
   ])
-  const lacks = profile.lacks.map(({ command, reason, instead }) => `  - ${command}: ${reason} ${instead}`)
-  const doubtful = profile.doubtful.map(({ command, reason }) => `  - ${command}: ${reason}`)
+  const lacks = byReason(profile.lacks.map(({ command, reason, instead }) => [command, `${reason} ${instead}`]))
+  const doubtful = byReason(profile.doubtful.map(({ command, reason }) => [command, reason]))
   const notes = profile.notes.map((note) => `  - ${note}`)
   return [
     head,
@@ -88,6 +88,19 @@ function details(profile: Profile): string {
     ...titled('Not on every port:', doubtful),
     ...titled('To know:', notes),
   ].join('\n')
+}
+
+/** More than one at once takes a serial number, which the 4E frame alone has. */
+function inFlightText({ inFlight, frames }: Profile): string {
+  const tcp = `${inFlight.tcp} over TCP`
+  return frames.includes('4E') ? `${tcp}, ${1 + inFlight.udpBuffer} over UDP with the 4E frame` : `${tcp} and UDP`
+}
+
+/** Commands with the same reason share a line: a family without files lacks eleven of them. */
+function byReason(rows: readonly (readonly [command: string, reason: string])[]): readonly string[] {
+  const commandsOf = new Map<string, string[]>()
+  for (const [command, reason] of rows) commandsOf.set(reason, [...(commandsOf.get(reason) ?? []), command])
+  return [...commandsOf].map(([reason, commands]) => `  - ${commands.join(', ')}: ${reason}`)
 }
 
 function titled(title: string, lines: readonly string[]): readonly string[] {

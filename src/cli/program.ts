@@ -43,8 +43,8 @@ const COMMANDS: readonly MakeCommand[] = [
 ]
 
 const DESCRIPTION =
-  'Talk to Mitsubishi MELSEC PLCs over SLMP (MC protocol, 3E, 4E and 1E frame), and simulate one. The PLC needs an SLMP ' +
-  'entry in its Ethernet parameters; give its address and port with --plc, or once and for all in the environment ' +
+  'Talk to Mitsubishi MELSEC PLCs over SLMP (MC protocol: 3E, 4E, station extension and 1E frames), and simulate one. The PLC ' +
+  'needs an SLMP entry in its Ethernet parameters; give its address and port with --plc, or once and for all in the environment ' +
   'variable MELSEC_JW_PLC. "melsec-jw help read" explains a command.'
 
 /**

@@ -62,8 +62,9 @@ async function put(terminal: Terminal, local: string, given: string, options: Pu
 }
 
 async function sizeOf(local: string): Promise<number> {
-  const found = await stat(local).catch((error: unknown) => {
-    throw localFault(error) ?? error
+  const found = await stat(local).catch((error: NodeJS.ErrnoException) => {
+    if (error.code !== 'ENOENT') throw localFault(error) ?? error
+    throw new RequestError('BAD_OPTION', `There is no ${local} on this computer: check its name and folder.`, 'local')
   })
   if (found.isFile()) return found.size
   throw new RequestError('BAD_OPTION', `${local} is no file.`, 'local')

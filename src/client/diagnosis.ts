@@ -19,9 +19,11 @@ export interface LinkSettings {
 }
 
 const OTHER_CODE = { binary: 'ASCII', ascii: 'binary' } as const
+const THIS_CODE = { binary: 'binary code', ascii: 'ASCII code' } as const
 const OTHER_FRAME = { '3E': '4E', '4E': '3E', ext: '4E', '1E': '3E' } as const
 /** Who knows the frame, where not every PLC does. */
 const KNOWN_TO: Readonly<Partial<Record<FrameName, string>>> = {
+  '3E': ' (an FX3 knows 1E only: choose its profile)',
   '4E': ' (iQ-F and older E71 modules have 3E only)',
   ext: ' (only an RJ71GN11-T2 knows and relays it)',
 }
@@ -33,7 +35,7 @@ export function explainSilence(settings: LinkSettings, silence: Silence): readon
 
 function fromTheStart(settings: LinkSettings): readonly string[] {
   const { transport, port, frame, frames, code, route, localPort } = settings
-  const dataCode = `The PLC's port is set to ${OTHER_CODE[code]} code and this connection to ${code}: compare "communication data code" in GX Works.`
+  const dataCode = `The PLC's port is set to ${OTHER_CODE[code]} code and this connection to ${THIS_CODE[code]}: compare "communication data code" in GX Works.`
   const peer =
     `UDP: the PLC sends its answer to the peer that is registered in its open settings; register this computer's address${localPort === undefined ? ' and set a fixed local port here' : ` and port ${localPort}`}, ` +
     'or choose an entry that answers anybody. A firewall on the way has the same effect.'

@@ -100,7 +100,9 @@ describe('put', () => {
   })
 
   test('says what is no file here', async () => {
-    expect(await here(['put', local('NONE'), '4:/N.BIN', '--yes'])).toMatchObject({ code: 2 })
+    const missing = await here(['put', local('NONE'), '4:/N.BIN', '--yes'])
+    expect(missing.code).toBe(2)
+    expect(missing.err).toMatch(/There is no .*NONE on this computer/)
     expect(await here(['put', folder, '4:/N.BIN', '--yes'])).toMatchObject({ code: 2 })
   })
 

@@ -169,7 +169,13 @@ describe('profiles', () => {
     for (const fact of ['Connections       at most 8', 'the connected station only', 'Z0 to Z23, LZ0 to LZ11', 'SD203'])
       expect(out).toContain(fact)
     expect(out).toMatch(/^X and Y +octal$/m)
-    expect(out).toMatch(/- entryMonitorDevice: .*readRandom/)
+    expect(out).toMatch(/- entryMonitorDevice, executeMonitor: .*readRandom/)
+  })
+
+  test('commands that are missing for one reason share a line, and what needs 4E is not said without it', async () => {
+    const { out } = await run('profiles', 'fx3')
+    expect(out.match(/A 1E frame has no such command/g)).toHaveLength(1)
+    expect(out).toMatch(/^In flight +1 over TCP and UDP$/m)
   })
 
   test('as JSON', async () => {

@@ -22,6 +22,7 @@ test('without it a locked PLC says so', async () => {
   const { code, err } = await read()
   expect(code).not.toBe(0)
   expect(err).toContain('C201')
+  expect(err).toMatch(/Say --password, or .*MELSEC_JW_PASSWORD/)
 })
 
 test('comes from the environment', async () => {

@@ -66,6 +66,15 @@ describe('identify', () => {
     expect(out).toContain('iq-r (this was asked as generic: use --profile iq-r)')
   })
 
+  test('a 1E frame tells the code of the CPU and not its name', async () => {
+    const fx3 = createPlcSimulator({ profile: 'fx3' })
+    await fx3.listen()
+    const { out } = await run('identify', '--plc', `127.0.0.1:${fx3.tcp?.port}`, '--profile', 'fx3')
+    expect(out).toMatch(/^Model +not told$/m)
+    expect(out).toMatch(/^Model code +00F3H/m)
+    await fx3.close()
+  })
+
   test('takes a refusal for what it is, an answer', async () => {
     plc.faults.add({ kind: 'endCode', endCode: 0xc059, commands: ['readTypeName'] })
     const ended = await at('identify')
@@ -377,7 +386,7 @@ describe('no answer', () => {
     const ended = await at('identify', '--ascii', '--timeout', '300')
     expect(ended.code).toBe(4)
     expect(ended.err).toMatch(
-      /does not answer\.\nPossible causes, the most likely first:\n {2}1\. .*binary code and this connection to ascii/,
+      /does not answer\.\nPossible causes, the most likely first:\n {2}1\. .*binary code and this connection to ASCII code/,
     )
     expectNoStack(ended)
   })

@@ -13,7 +13,7 @@ describe('a PLC that has never answered', () => {
     expect(causes).toHaveLength(4)
     expect(causes[0]).toContain('set to ASCII code and this connection to binary')
     expect(causes[1]).toContain('Port 5007 is open for something else')
-    expect(causes[2]).toContain('does not know the 3E frame: try 4E')
+    expect(causes[2]).toContain('does not know the 3E frame: try 4E (an FX3 knows 1E only')
     expect(causes[3]).toContain('raise the timeout')
   })
 
@@ -26,7 +26,7 @@ describe('a PLC that has never answered', () => {
   })
 
   test.each([
-    [{ code: 'ascii' }, 'set to binary code and this connection to ascii'],
+    [{ code: 'ascii' }, 'set to binary code and this connection to ASCII code'],
     [{ frame: '4E' }, 'does not know the 4E frame: try 3E (iQ-F and older E71 modules have 3E only)'],
   ] as const)('%j is named as it is set', (given, says) => {
     expect(explain(given).join('\n')).toContain(says)

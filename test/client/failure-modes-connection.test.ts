@@ -280,7 +280,7 @@ describe('10: silence, and its most likely cause', () => {
       'tcp 4E ascii iq-r',
       { code: 'binary' },
       {},
-      /set to binary code and this connection to ascii/,
+      /set to binary code and this connection to ASCII code/,
     ],
     [
       'the client speaks binary, the port ASCII',
