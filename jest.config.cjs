@@ -2,6 +2,7 @@
 module.exports = {
   testEnvironment: 'node',
   testMatch: ['<rootDir>/test/**/*.test.ts'],
+  setupFiles: ['<rootDir>/test/support/seed.ts'],
   // Installed runtimes and packed copies of this package must not be taken for a second one.
   modulePathIgnorePatterns: ['<rootDir>/dist/', '<rootDir>/.matrix/', '<rootDir>/.demo/'],
   transform: {

@@ -23,8 +23,8 @@ const ASCII_DIGITS = /^[^\p{Nd}]*(?:[0-9][^\p{Nd}]*)*$/u
 /** Scripts whose letters can be taken for those of a device. */
 const LETTER = String.raw`[\p{Script=Latin}\p{Script=Greek}\p{Script=Cyrillic}]`
 const FOREIGN_LETTER = new RegExp(String.raw`(?!${LETTER})\p{L}`, 'u')
-/** Letters, then digits: `DD100`, `Q5`, `XX1F`, `DD100Z2`. */
-const LETTERS_AND_NUMBER = new RegExp(String.raw`^(${LETTER}+)\d[\dA-F]*(?:L?Z\d*)?$`, 'u')
+/** Letters, then digits, with O for a zero too: `DD100`, `Q5`, `XX1F`, `X1O`, `DD100Z2`. */
+const LETTERS_AND_NUMBER = new RegExp(String.raw`^(${LETTER}+)\d[\dA-FO]*(?:L?Z\d*)?$`, 'u')
 
 const NAMES = [...new Set(devices.flatMap(({ name, group }) => (group === undefined ? [name] : [name, group])))]
 const DEVICE = NAMES.sort((a, b) => b.length - a.length).join('|')
@@ -70,7 +70,9 @@ function looksLikeAddress(name: string, options: AddressOptions): boolean {
   const isBit = rest !== undefined && index === undefined && /^[0-9A-F](?:\[|$)/.test(rest)
   if (rest === undefined || isBit) {
     const letters = LETTERS_AND_NUMBER.exec(first)?.[1]
-    if (letters !== undefined && (rest === undefined || letters.length <= MOST_LETTERS)) return true
+    // The letters of a hexadecimal number stand behind those of its device.
+    if (letters !== undefined && (rest === undefined || letters.replace(/[A-F]*$/, '').length <= MOST_LETTERS))
+      return true
     return DEVICE_ALONE.test(first)
   }
   // Brackets are what labels have and addresses do not.
