@@ -4,7 +4,7 @@ import { RequestError } from '../errors'
 import { commands } from '../melsec/commands/commands'
 import type { FileTime } from '../melsec/file-time'
 import type { Drive, Profile } from '../melsec/profile'
-import type { CallOptions } from './call'
+import { type CallOptions, optionProblem } from './call'
 import { type FileEntry, listDirectory, statOf } from './file-list'
 import { type FilePath, type FilePlace, fileOf, filePlaceOf } from './file-place'
 import { type FileProgress, readChunks } from './file-read'
@@ -198,6 +198,9 @@ export class FileAccess implements Files {
 
   async closeAll(options: CallOptions = {}): Promise<void> {
     checkBooleans(options, [])
+    // What cannot be sent must not end the transfers, whose files would stay locked.
+    const problem = optionProblem(options)
+    if (problem !== undefined) throw problem
     // The next file that is opened gets the pointer of one of these, and must not get what is written to it.
     this.#parts.closings.count++
     for (const file of this.#parts.open) file.leave()

@@ -375,6 +375,15 @@ describe('whatever happens, the file is closed', () => {
   })
 })
 
+test('closeAll() that cannot be sent ends no transfer', async () => {
+  const { plc, simulator } = await join('iq-r')
+  simulator.files.write(4, 'A.CSV', bytes(5000))
+  const refused: Promise<unknown>[] = []
+  const onProgress = () => refused.push(thrown(plc.files.closeAll({ timeout: -1 })))
+  expect(await plc.files.read('4:A.CSV', { onProgress })).toEqual(bytes(5000))
+  expect(await refused[0]).toMatchObject({ code: 'BAD_OPTION', field: 'timeout' })
+})
+
 describe('a connection that is lost', () => {
   test('ends the transfer: its pointer is not used on the next one', async () => {
     const { plc, simulator } = await join('iq-r', { settleGap: 1, reconnect: { first: 1 } })
