@@ -76,6 +76,7 @@ describe('the output', () => {
     ])
     await red.receive('read', { _msgid: 'abc', own: 1 })
     const first = await red.next('read')
+    await red.completed('read')
     expect(first).toMatchObject({ _msgid: 'abc', own: 1, topic: 'level', payload: 71.5 })
     expect(first.parts).toMatchObject({ index: 0, count: 4, key: 'level' })
     expect((await red.next('join')).payload).toEqual({ level: 71.5, batches: -7, running: true, product: 'Green tea' })
@@ -136,6 +137,7 @@ describe('addresses from the message', () => {
     ])
     await red.receive('set', {})
     expect((await red.next('read')).payload).toEqual({ M10: true })
+    await red.completed('read')
   })
 })
 
