@@ -145,6 +145,7 @@ describe('writing', () => {
     await red.receive('make', {})
     await red.next('date')
     await red.next('file')
+    await red.completed('file')
     expect(content('NEW.BIN')).toEqual(Buffer.from([2, 3]))
     expect((await once({ action: 'stat', file: '4:/NEW.BIN' })).payload).toMatchObject({
       modified: { year: 2024, month: 2, day: 29, hour: 12, minute: 30, second: 14 },
@@ -304,6 +305,7 @@ describe('a long transfer', () => {
     expect((await red.next('read')).payload).toEqual({ D100: 5 })
     expect(red.pending('file')).toEqual([])
     expect((await red.next('file')).payload).toEqual(bytes)
+    await red.completed('file')
     await red.status('file', { fill: 'green' })
     const told = red.statuses('file').flatMap(({ fill, text }) => (fill === 'blue' ? [text] : []))
     expect(told).toEqual(Array.from({ length: 10 }, (_, tenth) => `reading ${tenth * 10} %`))
