@@ -56,6 +56,8 @@ export class Call<Head> implements Job<Head> {
   #unwatch: (() => void) | undefined
   #settled = false
   readonly #settle: Settle<Head>
+  /** Set for what opens a locked PLC: until then it returns no self test. */
+  needsNoProof = false
 
   constructor(
     readonly exchange: Exchange<Head, unknown>,

@@ -1,6 +1,6 @@
 // What a connection is told and what it tells.
 import type { EndCodeError, PlcError } from '../errors'
-import type { Exchange, Framing, RequestFrame } from '../link/link'
+import type { Echo, Exchange, Framing, RequestFrame } from '../link/link'
 import type { Clock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
 import type { ConnectionStateName, SupervisorOptions } from './supervisor'
@@ -59,6 +59,11 @@ export interface ConnectionOptions<Head> {
   readonly unlocking?: Unlocking<Head>
   /** The first request on a new connection, behind unlocking. Any answer to it, also a refusal, proves that the PLC is there. */
   readonly probe: () => Exchange<Head, unknown>
+  /**
+   * A request that changes nothing, and how its answer is known among all others: a self test with a pattern that was
+   * not used before. For a fixed local port and a frame without serial number.
+   */
+  readonly proof: () => Echo<Head>
   /** Ranked causes, most likely first. */
   readonly explainSilence: (silence: Silence) => readonly string[]
   readonly onState: (state: ConnectionState) => void

@@ -1,7 +1,7 @@
 // One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
 // It knows no protocol family; Exchange and Framing bring that.
 import type { ConnectionError, PlcError } from '../errors'
-import { type Exchange, type ResponseFrame, SerialNumbers } from '../link/link'
+import { type Exchange, Fence, type ResponseFrame, SerialNumbers } from '../link/link'
 import type { Clock } from '../transport/clock'
 import { Alarm } from './alarm'
 import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
@@ -15,6 +15,9 @@ import { tell } from './tell'
 
 export type { ConnectionOptions, ConnectionState, Silence, TracedFrame } from './connection-options'
 
+/** How soon the proof of a fixed port is asked again, as a part of the deadline of a usual call: datagrams get lost. */
+const PROOFS_PER_TIMEOUT = 4
+
 export class Connection<Head> {
   readonly #options: ConnectionOptions<Head>
   readonly #clock: Clock
@@ -22,7 +25,7 @@ export class Connection<Head> {
   readonly #counters = new Counters()
   readonly #alarm: Alarm
   readonly #signals = new Signals()
-  readonly #owner: LineOwner
+  readonly #owner: LineOwner<Head>
   /** Calls that wait for the connection. */
   #held: Call<Head>[] = []
   #line: Line<Head> | undefined
@@ -39,10 +42,11 @@ export class Connection<Head> {
     this.#supervisor = new Supervisor(options.supervisor)
     this.#alarm = new Alarm(options.clock, () => this.#guard(() => this.#timeout()))
     this.#since = options.clock.time()
-    const { explainSilence } = options
+    const { explainSilence, framing, proof, timeout } = options
     this.#owner = {
       counters: this.#counters,
       serials: new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000)),
+      fence: new Fence(framing, { ask: proof, patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT) }),
       verified: () => this.#verified(),
       proved: () => this.#supervisor.proved(),
       lost: (error) => this.#lost(error),
@@ -259,7 +263,7 @@ export class Connection<Head> {
     if (this.#supervisor.name === 'closed') return
     const line = this.#line
     this.#line = undefined
-    const pause = line?.isFinal(error) === true ? Number.POSITIVE_INFINITY : (line?.restOfPort() ?? 0)
+    const pause = line?.isFinal(error) === true ? Number.POSITIVE_INFINITY : 0
     this.#supervisor.lost(error, this.#clock.now(), pause)
     if (line?.isOpen === true) this.#counters.add('disconnects')
     line?.end((call, sent) => this.#handedBack(call, sent, error))

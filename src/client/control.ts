@@ -1,6 +1,6 @@
 // Remote control of the CPU and the commands about the PLC itself: thin, named calls over the declarations.
 import { ProtocolError, RequestError } from '../errors'
-import type { Exchange } from '../link/link'
+import type { Echo, Exchange, ResponseFrame } from '../link/link'
 import { pcTypeCodes } from '../melsec/a-compatible-type'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { type CommandName, commands } from '../melsec/commands/commands'
@@ -183,4 +183,26 @@ export function selfTestOf<Head>(
       throw new ProtocolError('ECHO_MISMATCH', `Self Test: the PLC returned "${echoed.data}" instead of "${data}".`)
     },
   }
+}
+
+/**
+ * Makes self tests whose pattern was not used before, also by the program that had this port before: a number that goes
+ * up, behind eight random digits.
+ */
+export function proofs<Head>(protocol: Pick<ClientProtocol<Head>, 'exchange'>, random: () => number): () => Echo<Head> {
+  let count = 0
+  return () => {
+    count = (count + 1) % 0x1_0000_0000
+    const pattern = [Math.floor(random() * 0x1_0000_0000), count].map(digits).join('')
+    const { head, body, responseLength, decode } = selfTestOf(protocol, pattern)
+    const isEcho = (frame: ResponseFrame<Head>) => {
+      decode(frame)
+      return true
+    }
+    return { head, body, responseLength, isEcho }
+  }
+}
+
+function digits(value: number): string {
+  return value.toString(16).toUpperCase().padStart(8, '0')
 }

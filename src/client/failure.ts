@@ -130,12 +130,13 @@ export function silent(peer: string, causes: readonly string[], cause: PlcError)
   return new ConnectionError('SILENT', message, 'unknown', cause, causes)
 }
 
-/** A request got no answer on a fixed local port of a frame without serial number: its answer may still be on the way. */
-export function quarantine(peer: string): ConnectionError {
+/** On a fixed local port of a frame without serial number: after an unanswered request a self test must come back first. */
+export function unproved(title: string, peer: string, causes: readonly string[]): TimeoutError {
   const message =
-    `${peer} left a request unanswered. Its local port is fixed and the frame has no serial number, so the port rests ` +
-    'until a late answer can no longer be taken for the next one. Use the 4E frame or a free local port to avoid the pause.'
-  return new ConnectionError('DISCONNECTED', message, 'unknown')
+    `${title} was not sent: ${peer} did not return the self test that proves that no late answer to an earlier request is still on its way ` +
+    '(the local port is fixed, and the frame has no serial number). Without localPort, with the 4E frame or over TCP it is not needed.' +
+    mostLikely(causes)
+  return new TimeoutError(message, 'notSent', causes)
 }
 
 /** The PLC was reset by a command that it does not answer. */

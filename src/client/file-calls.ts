@@ -53,7 +53,7 @@ function aborted(title: string, { reason }: AbortSignal): ClosedError {
 
 /** The PLC locks an open file for the external device that opened it. */
 function unusable({ transport, frame }: Settings, localPort: number | undefined): string | undefined {
-  if (transport !== 'udp' || frame !== '3E' || localPort !== undefined) return undefined
+  if (transport !== 'udp' || frame !== '3E' || (localPort ?? 0) > 0) return undefined
   return (
     'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the file open again. ' +
     'Use TCP, the 4E frame, or a fixed localPort.'

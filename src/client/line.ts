@@ -1,6 +1,6 @@
 // One attempt to connect and the connection it becomes: a transport, a session, and the first request that proves it.
 import { type ConnectionError, EndCodeError, endsConnection, type PlcError, ProtocolError } from '../errors'
-import { type ResponseFrame, type SerialNumbers, Session, type SessionEvent } from '../link/link'
+import { type Fence, type ResponseFrame, type SerialNumbers, Session, type SessionEvent } from '../link/link'
 import type { Transport } from '../transport/transport'
 import type { Call } from './call'
 import type { ConnectionOptions, TracedFrame } from './connection-options'
@@ -13,9 +13,10 @@ import { tell } from './tell'
 const SILENT_REQUESTS = 2
 
 /** What a line needs of the connection it is a part of. */
-export interface LineOwner {
+export interface LineOwner<Head> {
   readonly counters: Counters
   readonly serials: SerialNumbers
+  readonly fence: Fence<Head>
   /** The PLC has answered the first request. */
   verified(): void
   /** The PLC has answered a request of the program. */
@@ -33,7 +34,7 @@ type Done<Head> = Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>
 
 export class Line<Head> {
   readonly #options: ConnectionOptions<Head>
-  readonly #owner: LineOwner
+  readonly #owner: LineOwner<Head>
   #transport: Transport | undefined
   #session: Session<Head, Call<Head>> | undefined
   readonly #opening: Opening<Head>
@@ -42,7 +43,7 @@ export class Line<Head> {
   #receivedAnything = false
   #ended = false
 
-  constructor(options: ConnectionOptions<Head>, owner: LineOwner) {
+  constructor(options: ConnectionOptions<Head>, owner: LineOwner<Head>) {
     this.#options = options
     this.#owner = owner
     this.#opening = new Opening(options)
@@ -73,6 +74,7 @@ export class Line<Head> {
     this.#transport = transport
     transport.open({
       opened: () => this.#guard(() => this.#opened(transport)),
+      renewed: () => this.#guard(() => this.flush()),
       received: (bytes) => this.#guard(() => this.#received(bytes)),
       closed: (error) => this.#guard(() => this.#closed(error)),
     })
@@ -99,9 +101,16 @@ export class Line<Head> {
     const { framing, inFlight, clock } = this.#options
     const { serials } = this.#owner
     this.#openBy = undefined
-    this.#session = new Session<Head, Call<Head>>(framing, { kind: transport.kind, window: inFlight, serials })
+    const options = { kind: transport.kind, window: inFlight, serials }
+    this.#session = new Session<Head, Call<Head>>(framing, options, this.#fenceFor(transport))
     this.submit(this.#opening.begin(clock.now()))
     this.flush()
+  }
+
+  /** Where a late answer can come to the port of the next request, and no number tells them apart. */
+  #fenceFor({ kind, renewable }: Transport): Fence<Head> | undefined {
+    const toldApart = kind === 'stream' || renewable || this.#options.framing.correlation === 'serial'
+    return toldApart ? undefined : this.#owner.fence
   }
 
   /** A first request was answered. */
@@ -144,7 +153,9 @@ export class Line<Head> {
       this.#take(event)
       if (this.#ended) return
     }
-    for (let bytes = session.transmit(); bytes !== undefined; bytes = session.transmit()) {
+    while (this.#transport?.ready === true) {
+      const bytes = session.transmit()
+      if (bytes === undefined) break
       this.#send(bytes)
       if (this.#ended) return
     }
@@ -178,22 +189,6 @@ export class Line<Head> {
     }
     this.#session?.timeout(now)
     this.flush()
-  }
-
-  /**
-   * How long the local port must be left alone: where it is fixed a late answer still arrives on it, and without a
-   * serial number it would be taken for the next one. ms
-   */
-  restOfPort(): number {
-    const { framing, timeout } = this.#options
-    if (this.#session === undefined || this.#transport?.kind !== 'datagram' || framing.correlation === 'serial')
-      return 0
-    try {
-      return this.#transport.renew() ? 0 : timeout
-    } catch {
-      // Closed by the system, because nothing receives on the PLC's port: then nothing answers from there either.
-      return 0
-    }
   }
 
   /** Ends it, and everything on it: what has no answer is handed back with whether it had been sent. */
@@ -233,7 +228,7 @@ export class Line<Head> {
         counters.add('stale')
         return
       case 'renew':
-        this.#renew(event.reason)
+        this.#transport?.renew()
         return
       case 'drop':
         if (event.error instanceof ProtocolError) counters.add('protocolErrors')
@@ -244,15 +239,10 @@ export class Line<Head> {
     }
   }
 
-  /** Where the local port is fixed a late answer can still arrive, so after a timeout it must rest: see `restOfPort`. */
-  #renew(reason: 'answered' | 'givenUp'): void {
-    if (this.#transport?.renew() === true || reason === 'answered') return
-    this.#lost(failure.quarantine(this.peer))
-  }
-
   #settle({ job, outcome, sentAt }: Done<Head>): void {
     if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
     else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
+    else if (outcome.kind === 'unproved') this.#unproved(job)
     // `disconnected` is met by `end` only.
     else if (outcome.kind === 'failed') job.fail(outcome.error)
   }
@@ -294,7 +284,18 @@ export class Line<Head> {
       return
     }
     const causes = this.#owner.causes(this.peer)
-    const error = failure.noAnswer(job.exchange.title, this.peer, causes)
+    this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
+  }
+
+  /** What must come back before a request on a fixed port did not: the request was not sent. */
+  #unproved(job: Call<Head>): void {
+    if (!this.#opening.owns(job)) this.#owner.counters.add('timeouts')
+    const causes = this.#owner.causes(this.peer)
+    this.#silence(job, causes, failure.unproved(job.exchange.title, this.peer, causes))
+  }
+
+  #silence(job: Call<Head>, causes: readonly string[], error: PlcError): void {
+    const isProbe = this.#opening.owns(job)
     job.fail(error)
     this.#silent += 1
     // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.

@@ -14,7 +14,7 @@ import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
 import { type CallOptions, optionProblem } from './call'
 import type { ClientEvents, ItemValue, ReadPlan, ReadValue, WriteEntry, WritePlan } from './client-types'
 import { Connection, type ConnectionState } from './connection'
-import { type Control, controlOf, type Identity, identify, type Send, selfTestOf } from './control'
+import { type Control, controlOf, type Identity, identify, proofs, type Send, selfTestOf } from './control'
 import { Deadline } from './deadline'
 import { explainSilence } from './diagnosis'
 import { filePartsOf } from './file-calls'
@@ -111,6 +111,7 @@ export class MelsecClient {
       timeout: settings.timeout,
       unlocking: { exchange: () => this.#password.unlock(), isFinal: isPasswordRefusal, isLocked: isPortLocked },
       probe: () => this.#probe(),
+      proof: proofs(this.#protocol, settings.random),
       explainSilence: (silence) =>
         explainSilence(
           { ...settings, port: options.port, localPort: options.localPort, frames: settings.profile.frames },

@@ -27,7 +27,9 @@ export class Opening<Head> {
     const unlock = this.#options.unlocking?.exchange()
     this.#unlocking = unlock !== undefined
     this.#corrected = false
-    return this.#make(unlock ?? this.#options.probe(), now)
+    const call = this.#make(unlock ?? this.#options.probe(), now)
+    call.needsNoProof = this.#unlocking
+    return call
   }
 
   /** Whether the call is the opening's own. */

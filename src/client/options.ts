@@ -179,7 +179,7 @@ export function settle(options: MelsecClientOptions): Settings {
     profile,
     frame,
     code: codeOf(frame, options.code ?? profile.code),
-    route: reachable(profile, routeOf(frame, options.route)),
+    route: provable(options, transport, frame, reachable(profile, routeOf(frame, options.route))),
     timer: timerOf(profile, options.monitoringTimer),
     xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
     xyUnknown: profile.id === 'generic' && (options.xyRadix ?? options.profileOverrides?.xyRadix) === undefined,
@@ -251,7 +251,7 @@ function checkPasswordPort(
   frame: FrameName,
 ): void {
   if (password === undefined || transport === 'tcp' || frameFacts[frame].serial) return
-  if (localPort !== undefined || openTransport !== undefined) return
+  if ((localPort ?? 0) > 0 || openTransport !== undefined) return
   const message =
     'A remote password over UDP needs localPort with the 3E frame: the PLC unlocks one peer, and without it every request ' +
     'leaves from another port. Set it as in the open settings of the PLC, or use TCP or the 4E frame.'
@@ -308,6 +308,23 @@ function reachable({ title, reach }: Profile, route: Route): Route {
   if (reach.stations === 'networks' || (own && moduleTaken)) return route
   const message = `${title} reaches the connected station only: leave route out (${reach.source}).`
   throw new RequestError('UNSUPPORTED', message, 'route')
+}
+
+/**
+ * On a fixed port a late answer is told from the next one by a self test, which the connected station returns. It proves
+ * nothing about a request that this station passes on to another one.
+ */
+function provable(
+  { localPort = 0 }: MelsecClientOptions,
+  transport: TransportName,
+  frame: FrameName,
+  route: Route,
+): Route {
+  if (transport === 'tcp' || localPort === 0 || frameFacts[frame].serial || isConnectedStation(route)) return route
+  const message =
+    `With the ${frame} frame over UDP and a fixed localPort only the connected station can be reached: a late answer of another ` +
+    'station could not be told from the next one. Leave localPort out, or use the 4E frame or TCP.'
+  throw new RequestError('BAD_OPTION', message, 'localPort')
 }
 
 function inFlightOf(profile: Profile, transport: TransportName, frame: FrameName, given: number | undefined): number {

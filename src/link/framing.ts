@@ -66,6 +66,8 @@ export interface Job<Head> {
   readonly deadline: number
   /** Length of the answer's body, asked only by frames that carry none. */
   readonly responseLength: BodyLength<Head>
+  /** Sent although nothing proves that earlier answers are not still on their way (see `Fence`): a locked PLC echoes nothing. */
+  readonly needsNoProof?: boolean
 }
 
 /** How a job ended. */
@@ -73,6 +75,8 @@ export type Outcome<Head> =
   | { readonly kind: 'answered'; readonly frame: ResponseFrame<Head> }
   | { readonly kind: 'timedOut'; readonly sent: boolean }
   | { readonly kind: 'disconnected'; readonly sent: boolean }
+  /** Not sent: what must come back before it, so that its answer can be known (see `Fence`), did not in time. */
+  | { readonly kind: 'unproved' }
   | { readonly kind: 'failed'; readonly error: PlcError }
 
 /** What a session tells its owner. */
@@ -88,5 +92,5 @@ export type SessionEvent<Head, J extends Job<Head> = Job<Head>> =
   | { readonly kind: 'stale'; readonly serial: number | undefined }
   /** The connection must be dropped: what arrives on it can no longer be attributed. */
   | { readonly kind: 'drop'; readonly error: PlcError }
-  /** Datagrams without a serial number: the next request must leave from a new local port. */
+  /** Datagrams without a serial number or a fence: the next request must leave from a new local port. */
   | { readonly kind: 'renew'; readonly reason: 'answered' | 'givenUp' }

@@ -1,6 +1,7 @@
 // The public names of this room.
 
 export type { Exchange } from './exchange'
+export { type Echo, Fence, type FenceOptions } from './fence'
 export type { BodyLength, Framing, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
 export { HeadProtocol, type HeadProtocolParts, type NamedCommand } from './head-protocol'
 export { Responder } from './responder'

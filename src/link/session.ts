@@ -4,8 +4,10 @@
 // Without a serial number a late answer would be taken for the next one. So `order` means one request in flight, and
 // after a timeout or an abandoned request the connection is dropped (stream) or the local port is changed (datagram).
 // The same holds with serial numbers for a stream that stopped in the middle of an answer.
-// With datagrams the network may also duplicate, so there the port is changed after every answer.
+// With datagrams the network may also duplicate, so there the port is changed after every answer. A port that stays
+// needs a fence (fence.ts): each request waits until it is proved that nothing earlier is under way.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
+import type { Fence } from './fence'
 import type { Framing, Job, Outcome, RequestFrame, ResponseFrame, SessionEvent } from './framing'
 import { SerialNumbers } from './serial-numbers'
 
@@ -21,13 +23,16 @@ export interface SessionOptions {
   readonly serials?: SerialNumbers
 }
 
-interface Pending<J> {
-  readonly job: J
-  readonly serial: number
+interface Outgoing {
   readonly bytes: Buffer
-  readonly sentAt: number
   /** Handed out by `transmit()`. Until then the PLC cannot have seen it. */
   sent: boolean
+}
+
+interface Pending<J> extends Outgoing {
+  readonly job: J
+  readonly serial: number
+  readonly sentAt: number
 }
 
 /** What stands at the front of the received bytes. `unasked`: an answer that belongs to no request. */
@@ -42,16 +47,18 @@ const MAX_FRAME = 65_536
 export class Session<Head, J extends Job<Head> = Job<Head>> {
   readonly #framing: Framing<Head>
   readonly #options: SessionOptions
+  readonly #fence: Fence<Head> | undefined
   #pending: Pending<J>[] = []
   #waiting: J[] = []
-  #output: Pending<J>[] = []
+  #output: Outgoing[] = []
   #events: SessionEvent<Head, J>[] = []
   #received: Buffer = EMPTY
   readonly #serials: SerialNumbers
   /** Set once the connection must go: nothing more is sent or attributed on it. */
   #dropped = false
 
-  constructor(framing: Framing<Head>, options: SessionOptions) {
+  /** `fence`: for datagrams without a serial number where the local port stays. */
+  constructor(framing: Framing<Head>, options: SessionOptions, fence?: Fence<Head>) {
     if (framing.correlation === 'order' && options.window !== 1) {
       throw new RequestError(
         'BAD_OPTION',
@@ -61,6 +68,8 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     }
     this.#framing = framing
     this.#options = options
+    this.#fence = fence
+    fence?.begin()
     this.#serials = options.serials ?? new SerialNumbers()
   }
 
@@ -112,12 +121,12 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   timeout(now: number): void {
     for (const job of this.#waiting.filter((entry) => entry.deadline <= now)) {
       this.#waiting.splice(this.#waiting.indexOf(job), 1)
-      this.#finish(job, { kind: 'timedOut', sent: false }, undefined)
+      const unproved = this.#fence?.due !== undefined && job.needsNoProof !== true
+      this.#finish(job, unproved ? { kind: 'unproved' } : { kind: 'timedOut', sent: false }, undefined)
     }
     const late = this.#pending.filter((entry) => entry.job.deadline <= now)
-    if (late.length === 0) return
     for (const { job, sentAt, sent } of late) this.#finish(job, { kind: 'timedOut', sent }, sentAt)
-    this.#giveUp(late, 'no answer before the deadline')
+    if (late.length > 0) this.#giveUp(late, 'no answer before the deadline')
     this.#fill(now)
   }
 
@@ -137,9 +146,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     for (const job of waiting) this.#finish(job, { kind: 'disconnected', sent: false }, undefined)
   }
 
-  /** Earliest deadline, or `undefined` when nothing waits. */
+  /** When something is due, or `undefined` when nothing waits. */
   nextTimeout(): number | undefined {
     let earliest: number | undefined
+    if (this.#waiting.length > 0) earliest = this.#fence?.due
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
     for (const job of this.#waiting) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
     return earliest
@@ -160,12 +170,15 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
 
   #fill(now: number): void {
     while (!this.#dropped && this.#pending.length < this.#options.window) {
-      const job = this.#waiting.shift()
+      const job = this.#waiting[0]
       if (job === undefined) return
+      if (job.deadline > now && !this.#mayLeave(job, now)) return
+      this.#waiting.shift()
       if (job.deadline <= now) {
         this.#finish(job, { kind: 'timedOut', sent: false }, undefined)
         continue
       }
+      this.#fence?.sent()
       const serial = this.#serials.take((used) => this.#pending.some((entry) => entry.serial === used))
       const entry = {
         job,
@@ -177,6 +190,15 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       this.#pending.push(entry)
       this.#output.push(entry)
     }
+  }
+
+  /** Whether its answer could be told from earlier ones; asks for the proof when it is due. */
+  #mayLeave(job: J, now: number): boolean {
+    const fence = this.#fence
+    if (fence === undefined || job.needsNoProof === true || fence.allows(now)) return true
+    const bytes = fence.ask(now)
+    if (bytes !== undefined) this.#output.push({ bytes, sent: false })
+    return false
   }
 
   #receiveStream(chunk: Buffer): void {
@@ -203,6 +225,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   /** One datagram is one frame. What does not fit is looked at before anything of it is believed. */
   #receiveDatagram(datagram: Buffer): void {
     const { length } = datagram
+    if (this.#isOfFence(datagram)) return
     try {
       const found = this.#find(datagram)
       if (found === undefined) {
@@ -218,6 +241,14 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     }
   }
 
+  /** Whether it is the fence's, or of something before it: no request in flight is answered by it. */
+  #isOfFence(datagram: Buffer): boolean {
+    if (this.#fence === undefined || this.#framing.response.isUnsolicited?.(datagram) === true) return false
+    const seen = this.#fence.look(datagram)
+    if (seen === 'stray') this.#events.push({ kind: 'stale', serial: undefined })
+    return seen !== undefined
+  }
+
   /** The frame at the front, or `undefined` when it is not complete. */
   #find(bytes: Buffer): Found<Head> | undefined {
     if (this.#framing.response.isUnsolicited?.(bytes) === true) {
@@ -225,7 +256,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       return unsolicited && { used: unsolicited.used, kind: 'unsolicited', frame: unsolicited.frame }
     }
     // With nothing asked, an answer without a serial number belongs to nobody; 1E could not even tell where it ends.
-    if (this.#pending.length === 0 && this.#framing.correlation === 'order') {
+    if (this.#framing.correlation === 'order' && !this.#pending.some((entry) => entry.sent)) {
       return { used: bytes.length, kind: 'unasked' }
     }
     const scanned = this.#framing.response.scan(bytes, (head, soFar) =>
@@ -269,14 +300,14 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     if (mismatch !== undefined)
       throw new ProtocolError('ECHO_MISMATCH', `The answer is not the request's: ${mismatch}.`)
     this.#pending.splice(at, 1)
+    this.#fence?.answered()
     this.#finish(found.job, { kind: 'answered', frame }, found.sentAt)
-    if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order')
-      this.#events.push({ kind: 'renew', reason: 'answered' })
+    if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order') this.#renew('answered')
   }
 
   #giveUp(entries: readonly Pending<J>[], why: string): void {
     this.#pending = this.#pending.filter((entry) => !entries.includes(entry))
-    this.#output = this.#output.filter((entry) => !entries.includes(entry))
+    this.#output = this.#output.filter((entry) => !entries.some((gone) => gone === entry))
     const sent = entries.filter((entry) => entry.sent)
     if (sent.length === 0) return
     if (this.#framing.correlation === 'serial') {
@@ -285,11 +316,16 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       return
     }
     if (this.#options.kind === 'datagram') {
-      this.#events.push({ kind: 'renew', reason: 'givenUp' })
+      this.#renew('givenUp')
       return
     }
     const message = `The connection was dropped: ${why}, and without a serial number a late answer could not be told from the next one.`
     this.#drop(new ConnectionError('DISCONNECTED', message, 'unknown'))
+  }
+
+  /** A late or second answer may come to this port; a fence is told to stand again before the next request. */
+  #renew(reason: 'answered' | 'givenUp'): void {
+    if (this.#fence === undefined) this.#events.push({ kind: 'renew', reason })
   }
 
   /**

@@ -114,6 +114,11 @@ export function notOpen(description: string): ConnectionError {
   return new ConnectionError('DISCONNECTED', `${description}: not open, nothing was sent`)
 }
 
+/** `renew` where the local port cannot change: a bug of the caller, which would believe a late answer afterwards. */
+export function notRenewable(description: string): ConnectionError {
+  return new ConnectionError('DISCONNECTED', `${description}: its local port cannot be changed`)
+}
+
 /** Listening failed. */
 export function listenFailure(protocol: 'tcp' | 'udp', endpoint: string, cause: unknown): ConnectionError {
   const code = codeOf(cause)

@@ -1,7 +1,7 @@
 /** Clients and a server joined in memory, for tests and for a simulator inside the same program. */
 import { ConnectionError } from '../errors'
 import { type DeliveryOptions, DeliveryQueue, type Receiver } from './delivery'
-import { notOpen } from './failure'
+import { notOpen, notRenewable } from './failure'
 import type { OpenTransport, ServerConnection, Transport, TransportHandlers } from './transport'
 
 export interface MemoryOptions extends DeliveryOptions {
@@ -183,6 +183,14 @@ class MemoryTransport implements Transport {
     return this.#line === undefined ? 'memory' : `memory (local ${this.#line.port})`
   }
 
+  get renewable(): boolean {
+    return this.kind === 'datagram'
+  }
+
+  get ready(): boolean {
+    return this.#state === 'open'
+  }
+
   open(handlers: TransportHandlers): void {
     if (this.#state !== 'new') throw new Error(`${this.description}: open() was called before, make another transport`)
     this.#state = 'opening'
@@ -198,12 +206,12 @@ class MemoryTransport implements Transport {
     this.#network.queue.carry(this.#line.toServer, bytes)
   }
 
-  renew(): boolean {
-    if (this.kind === 'stream') return false
+  renew(): void {
+    if (!this.renewable) throw notRenewable(this.description)
     if (this.#state !== 'open') throw notOpen(this.description)
     this.#line?.leave()
     this.#line = new Line(this.#network, this)
-    return true
+    this.#handlers?.renewed?.()
   }
 
   close(): void {

@@ -10,7 +10,7 @@ import {
   formatEndpoint,
   resolveAddress,
 } from './endpoint'
-import { connectFailure, connectTimedOut, lostConnection, notOpen, type Place } from './failure'
+import { connectFailure, connectTimedOut, lostConnection, notOpen, notRenewable, type Place } from './failure'
 import type { OpenTransport, Transport, TransportHandlers } from './transport'
 
 export interface TcpOptions extends EndpointOptions {
@@ -47,6 +47,7 @@ export function tcpTransport(options: TcpOptions): OpenTransport {
 
 class TcpTransport implements Transport {
   readonly kind = 'stream'
+  readonly renewable = false
   readonly #options: TcpOptions
   #state: 'new' | 'opening' | 'open' | 'done' = 'new'
   #handlers: TransportHandlers | undefined
@@ -63,6 +64,10 @@ class TcpTransport implements Transport {
 
   get description(): string {
     return `tcp ${formatEndpoint(this.#address, this.#options.port)}${this.#local}`
+  }
+
+  get ready(): boolean {
+    return this.#state === 'open'
   }
 
   open(handlers: TransportHandlers): void {
@@ -85,8 +90,8 @@ class TcpTransport implements Transport {
     this.#socket.write(bytes)
   }
 
-  renew(): boolean {
-    return false
+  renew(): void {
+    throw notRenewable(this.description)
   }
 
   close(): void {

@@ -8,6 +8,8 @@ import type { ConnectionError } from '../errors'
 export interface TransportHandlers {
   /** Once: bytes may be sent. A datagram transport is open when its socket is; it cannot know whether a peer exists. */
   opened(): void
+  /** After `renew()`: bytes may be sent again. Only who renews needs it. */
+  renewed?(): void
   /** A chunk of the stream, or exactly one datagram. The buffer belongs to the receiver. */
   received(bytes: Buffer): void
   /**
@@ -21,6 +23,13 @@ export interface TransportHandlers {
 /** One connection attempt and the connection it becomes. It is not reused: the next attempt is another transport. */
 export interface Transport {
   readonly kind: 'stream' | 'datagram'
+  /**
+   * Whether `renew()` moves to a new local port, so that nothing late can arrive. Not on a stream (close it instead),
+   * and not where the user fixed the local port.
+   */
+  readonly renewable: boolean
+  /** Whether bytes may be sent now: not before `opened`, and not between `renew()` and `renewed`. */
+  readonly ready: boolean
   /** Starts the attempt. May be called once. */
   open(handlers: TransportHandlers): void
   /**
@@ -30,11 +39,11 @@ export interface Transport {
    */
   send(bytes: Uint8Array): void
   /**
-   * Makes sure that late answers to earlier requests cannot arrive any more, by moving to a new local port.
-   * Returns whether that is now certain. `false`: on a stream (close it instead), and where the user fixed the local
-   * port; there the datagrams received so far are discarded, but one still on its way can arrive later.
+   * Makes sure that late answers to earlier requests cannot arrive any more, by moving to a new local port. Nothing can
+   * be sent until `renewed` is called, perhaps before this returns: what waits belongs to its owner, who may still give
+   * it up. Throws where the transport is not `renewable`.
    */
-  renew(): boolean
+  renew(): void
   /** Ends it at once. No handler is called afterwards. May be called at any time and again. */
   close(): void
   /** For messages and logs, e.g. `tcp 192.168.3.39:5007 (local 192.168.3.2:50231)`. */

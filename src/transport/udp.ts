@@ -11,7 +11,7 @@ import {
   literalLookup,
   resolveAddress,
 } from './endpoint'
-import { connectFailure, notOpen, type Place } from './failure'
+import { connectFailure, notOpen, notRenewable, type Place } from './failure'
 import type { OpenTransport, Transport, TransportHandlers } from './transport'
 
 export type UdpOptions = EndpointOptions
@@ -26,7 +26,7 @@ const PORT_TRIES = 16
  *
  * The socket is connected: datagrams of other senders do not arrive, and where the PLC's side answers that nothing
  * listens there, the transport ends with CONNECT_FAILED. Empty datagrams carry nothing and are dropped.
- * `renew()` costs about 60 µs of CPU; what is sent meanwhile waits for the new socket.
+ * `renew()` costs about 60 µs of CPU; nothing can be sent until the new socket is there.
  * @throws RequestError BAD_OPTION
  * @example
  * const transport = udpTransport({ host: '192.168.3.39', port: 5008 })()
@@ -48,10 +48,9 @@ class UdpTransport implements Transport {
   #handlers: TransportHandlers | undefined
   #socket: Socket | undefined
   /** The socket is connected. */
-  #ready = false
+  #connected = false
   /** The address of the peer as the senders of datagrams are spelt; learnt from the first socket. */
   #peer: string | undefined
-  #waiting: Uint8Array[] = []
   #address: string
   #sent = false
 
@@ -63,10 +62,18 @@ class UdpTransport implements Transport {
 
   get description(): string {
     const target = `udp ${formatEndpoint(this.#address, this.#options.port)}`
-    if (this.#socket === undefined || !this.#ready) return target
+    if (this.#socket === undefined || !this.#connected) return target
     // Asked for when needed: a system call saved for each renewal.
     const { address, port } = this.#socket.address()
     return `${target} (local ${formatEndpoint(address, port)})`
+  }
+
+  get renewable(): boolean {
+    return !this.#options.localPort
+  }
+
+  get ready(): boolean {
+    return this.#state === 'open' && this.#connected
   }
 
   open(handlers: TransportHandlers): void {
@@ -87,24 +94,24 @@ class UdpTransport implements Transport {
     // After a failure `closed` comes within this turn of the event loop and tells what became of it.
     if (this.#state === 'failed') return
     if (this.#state !== 'open') throw notOpen(this.description)
+    // What is kept here until the new port is open would leave from it although it had been given up meanwhile.
+    if (!this.#connected) throw notOpen(this.description)
     this.#sent = true
-    if (this.#ready) this.#post(bytes)
-    else this.#waiting.push(bytes)
+    this.#post(bytes)
   }
 
-  renew(): boolean {
-    if (this.#state === 'failed') return true
+  renew(): void {
+    if (this.#state === 'failed') return
     if (this.#state !== 'open') throw notOpen(this.description)
+    if (!this.renewable) throw notRenewable(this.description)
     this.#drop()
     this.#bind(PORT_TRIES)
-    return !this.#options.localPort
   }
 
   close(): void {
     if (this.#state === 'done') return
     this.#state = 'done'
     this.#handlers = undefined
-    this.#waiting = []
     this.#drop()
   }
 
@@ -122,7 +129,7 @@ class UdpTransport implements Transport {
       if (bytes.length > 0) this.#handlers?.received(bytes)
     })
     socket.on('connect', () => {
-      if (socket === this.#socket) this.#connected(socket)
+      if (socket === this.#socket) this.#reached(socket)
     })
     socket.on('listening', () => {
       if (socket !== this.#socket) return
@@ -137,17 +144,15 @@ class UdpTransport implements Transport {
     socket.bind({ port: localPort, ...(localAddress === undefined ? {} : { address: localAddress }), exclusive: true })
   }
 
-  #connected(socket: Socket): void {
-    this.#ready = true
+  #reached(socket: Socket): void {
+    this.#connected = true
     this.#peer ??= socket.remoteAddress().address
     if (this.#state === 'opening') {
       this.#state = 'open'
       this.#handlers?.opened()
       return
     }
-    const waiting = this.#waiting
-    this.#waiting = []
-    for (const bytes of waiting) this.#post(bytes)
+    this.#handlers?.renewed?.()
   }
 
   #post(bytes: Uint8Array): void {
@@ -183,7 +188,7 @@ class UdpTransport implements Transport {
   #drop(): void {
     this.#socket?.close()
     this.#socket = undefined
-    this.#ready = false
+    this.#connected = false
   }
 }
 

@@ -12,7 +12,7 @@ export type Kind = 'stream' | 'datagram'
 export interface BenchOptions extends Partial<ConnectionOptions<Head3e>> {
   readonly kind?: Kind
   readonly frame?: Frame
-  /** As with a local port that the user fixed: `renew()` cannot promise anything. */
+  /** As with a local port that the user fixed: it cannot be renewed. */
   readonly fixedPort?: boolean
 }
 
@@ -46,6 +46,7 @@ export class Bench {
       connectTimeout: 5000,
       timeout: 1000,
       probe: this.ask.probe,
+      proof: this.ask.proof,
       explainSilence: () => CAUSES,
       onState: (state) => this.states.push(state),
       onUnsolicited: ({ body }) => this.unsolicited.push(String(body)),
@@ -56,13 +57,14 @@ export class Bench {
   #openTransport(fixedPort: boolean): OpenTransport {
     return () => {
       const transport = this.memory.open()
-      const renew = (): boolean => {
+      const renew = (): void => {
         this.renewed += 1
-        return fixedPort ? false : transport.renew()
+        transport.renew()
       }
       return new Proxy<Transport>(transport, {
         get: (target, name) => {
           if (name === 'renew') return renew
+          if (name === 'renewable') return target.renewable && !fixedPort
           const value: unknown = Reflect.get(target, name)
           return typeof value === 'function' ? value.bind(target) : value
         },

@@ -148,7 +148,9 @@ describe('a transport that was given up', () => {
         description: `made ${made.length}`,
         open: (handlers) => void Object.assign(entry, { handlers }),
         send: (bytes) => entry.sent.push(Buffer.from(bytes)),
-        renew: () => false,
+        renewable: false,
+        ready: true,
+        renew() {},
         close: () => void entry.closed++,
       }
     }

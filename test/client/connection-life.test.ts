@@ -1,7 +1,7 @@
 // The life of a connection: lost, silent, reset, renewed, closed; and what becomes of the calls on it.
 import { describe, expect, test } from '@jest/globals'
 import { Bench } from './bench'
-import { type Script, silent } from './scripted-plc'
+import { replying, type Script, silent } from './scripted-plc'
 
 const frames = ['3E', '4E'] as const
 const kinds = ['stream', 'datagram'] as const
@@ -130,38 +130,111 @@ describe('3E by datagrams', () => {
     expect(bench.connection.statistics).toMatchObject({ stale: 0, protocolErrors: 0, connects: 1 })
   })
 
-  test('from a fixed port: after a timeout the port rests until a late answer has had its time', async () => {
-    const bench = await Bench.connected({ frame: '3E', kind: 'datagram', fixedPort: true })
-    let late = () => {}
-    bench.plc.script = ({ reply }) => {
-      late = reply
-    }
-    const [lost, waiting] = [bench.read(100), bench.read(200, { timeout: 10_000 })]
-    await bench.pass(1000)
-    expect([lost.told, bench.state]).toEqual(['TIMEOUT unknown', 'waiting'])
-    expect(bench.connection.state.error?.message).toContain(
-      'Its local port is fixed and the frame has no serial number',
-    )
-    bench.plc.script = (asked) => asked.reply()
-    late()
-    await bench.pass(999)
-    expect([bench.state, waiting.told]).toEqual(['waiting', 'pending'])
-    await bench.pass(1)
-    expect([bench.state, waiting.told]).toEqual(['connected', { values: [200] }])
-    expect(bench.plc.asked).toEqual(['readWords 100', 'readWords 200'])
-  })
+  describe('from a fixed port, where a late answer can come to the next request', () => {
+    const fixed = { frame: '3E', kind: 'datagram', fixedPort: true } as const
 
-  test.each<[string, Script]>([
-    ['a first request without an answer', silent],
-    ['rubbish in the place of an answer', ({ peer }) => peer.send(Buffer.from('rubbish'))],
-    ['an answer that does not fit', (asked) => asked.peer.send(asked.answer().subarray(0, -2))],
-  ])('from a fixed port: it rests after %s, too', async (_what, script) => {
-    const bench = new Bench({ frame: '3E', kind: 'datagram', fixedPort: true, timeout: 2000 })
-    bench.plc.probe = script
-    bench.follow(bench.connection.connect())
-    while (bench.state === 'idle' || bench.state === 'connecting') await bench.pass(100)
-    const { nextAttempt = 0, since } = bench.connection.state
-    expect(nextAttempt - since).toBe(2000)
+    test('nothing is sent before a self test has come back; what comes before it is thrown away, however late', async () => {
+      const bench = await Bench.connected(fixed)
+      const late: (() => void)[] = []
+      const echoes: (() => void)[] = []
+      bench.plc.script = ({ reply }) => void late.push(reply)
+      const [lost, waiting] = [bench.read(100), bench.read(200, { timeout: 10_000 })]
+      await bench.settle()
+      // The proof of the first request has come back; from here on the PLC is slow.
+      bench.plc.proof = ({ reply }) => void echoes.push(reply)
+      await bench.pass(1000)
+      expect([lost.told, bench.state, bench.plc.asked]).toEqual(['TIMEOUT unknown', 'connected', ['readWords 100']])
+      bench.plc.script = replying
+      await bench.pass(5000)
+      // In order: first the late answer, then what was asked behind it.
+      late[0]?.()
+      await bench.settle()
+      expect([waiting.told, bench.plc.asked]).toEqual(['pending', ['readWords 100']])
+      echoes[0]?.()
+      await bench.settle()
+      expect(waiting.told).toEqual({ values: [200] })
+      expect(bench.connection.statistics).toMatchObject({ stale: 1, protocolErrors: 0, connects: 1 })
+    })
+
+    test('every answer twice, and echoes again and again, are told from the answer to the request', async () => {
+      const bench = await Bench.connected(fixed)
+      const replies: (() => void)[] = []
+      const twice: Script = ({ reply }) => {
+        for (const earlier of replies) earlier()
+        reply()
+        reply()
+        replies.push(reply)
+      }
+      // Only echoes may come behind a fence that stands: an older answer would have come before the echo.
+      const echoes: (() => void)[] = []
+      bench.plc.proof = ({ reply }) => {
+        for (const earlier of replies.splice(0)) earlier()
+        reply()
+        reply()
+        echoes.push(reply)
+      }
+      bench.plc.script = (asked) => {
+        for (const echo of echoes) echo()
+        twice(asked)
+      }
+      for (const number of [1, 2, 3, 4, 5]) {
+        const read = bench.read(number)
+        await bench.settle()
+        expect(read.told).toEqual({ values: [number] })
+      }
+      expect(bench.connection.statistics).toMatchObject({ protocolErrors: 0, connects: 1, timeouts: 0 })
+    })
+
+    test('a self test that was lost is asked again, with another pattern', async () => {
+      const bench = await Bench.connected(fixed)
+      const patterns: string[] = []
+      bench.plc.proof = ({ frame, reply }) => {
+        patterns.push(frame.body.subarray(-16).toString('latin1'))
+        if (patterns.length === 2) reply()
+      }
+      const read = bench.read(7)
+      await bench.pass(250)
+      expect(read.told).toEqual({ values: [7] })
+      expect(patterns).toHaveLength(2)
+      expect(patterns[0]).not.toBe(patterns[1])
+    })
+
+    test('a request whose proof does not come back ends as not sent, and the PLC never sees it', async () => {
+      const bench = await Bench.connected(fixed)
+      bench.plc.proof = silent
+      const write = bench.follow(bench.connection.request(bench.ask.write(1, 77)))
+      await bench.pass(1000)
+      expect(write.told).toBe('TIMEOUT notSent')
+      expect(bench.plc.asked).toEqual([])
+      expect(bench.plc.words[1]).toBe(1)
+    })
+
+    test('a PLC that answers the self test with an end code is not believed', async () => {
+      const bench = await Bench.connected(fixed)
+      bench.plc.proof = ({ peer, refuse }) => peer.send(refuse(0xc059))
+      const read = bench.read(1)
+      await bench.pass(1000)
+      expect([read.told, bench.plc.asked]).toEqual(['TIMEOUT notSent', []])
+    })
+
+    test('a request that is given up while its proof is under way is never sent', async () => {
+      const bench = await Bench.connected(fixed)
+      let echo = () => {}
+      bench.plc.proof = ({ reply }) => {
+        echo = reply
+      }
+      const abort = new AbortController()
+      const write = bench.follow(bench.connection.request(bench.ask.write(1, 77), { signal: abort.signal }))
+      await bench.settle()
+      abort.abort()
+      echo()
+      await bench.settle()
+      expect([write.told, bench.plc.asked]).toEqual(['ABORTED notSent', []])
+      // It stands for the next one all the same.
+      const read = bench.read(2)
+      await bench.settle()
+      expect([read.told, bench.plc.asked]).toEqual([{ values: [2] }, ['readWords 2']])
+    })
   })
 
   test('4E on a fixed port needs no rest: the numbers tell, also over a reconnection', async () => {

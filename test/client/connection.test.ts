@@ -153,7 +153,15 @@ describe('an attempt that fails', () => {
 
   test('an address that never answers is given up after connectTimeout', async () => {
     let closed = 0
-    const deaf = { kind: 'stream', description: 'tcp 10.0.0.1:5007', open() {}, send() {}, renew: () => false } as const
+    const deaf = {
+      kind: 'stream',
+      description: 'tcp 10.0.0.1:5007',
+      renewable: false,
+      ready: false,
+      open() {},
+      send() {},
+      renew() {},
+    } as const
     const bench = new Bench({ connectTimeout: 2000, openTransport: () => ({ ...deaf, close: () => void closed++ }) })
     const connecting = bench.follow(bench.connection.connect())
     const [brief, read] = [bench.read(1, { timeout: 500 }), bench.read(2, { timeout: 9000 })]

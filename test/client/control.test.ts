@@ -80,6 +80,10 @@ describe.each(kinds)('over %s', (text) => {
           open: (told) => carried.open({ ...told, received: (bytes) => told.received(wrong(bytes)) }),
           send: (bytes) => carried.send(bytes),
           renew: () => carried.renew(),
+          renewable: carried.renewable,
+          get ready() {
+            return carried.ready
+          },
           close: () => carried.close(),
         }
       }

@@ -65,6 +65,7 @@ export class Loopback {
       connectTimeout: 5000,
       timeout,
       probe: this.ask.probe,
+      proof: this.ask.proof,
       explainSilence: (silence) => explainSilence(settings, silence),
       onState: (state) => this.#told(state),
       onUnsolicited: () => {},

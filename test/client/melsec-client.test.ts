@@ -386,6 +386,10 @@ describe('events', () => {
               },
               send: (bytes) => transport.send(bytes),
               renew: () => transport.renew(),
+              renewable: transport.renewable,
+              get ready() {
+                return transport.ready
+              },
               close: () => transport.close(),
             }
           },

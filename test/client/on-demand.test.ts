@@ -42,6 +42,10 @@ async function connected(options: Partial<MelsecClientOptions>, run: (told: Told
       },
       send: (bytes) => transport.send(bytes),
       renew: () => transport.renew(),
+      renewable: transport.renewable,
+      get ready() {
+        return transport.ready
+      },
       close: () => transport.close(),
     }
   }

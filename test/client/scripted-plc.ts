@@ -3,6 +3,7 @@
  * What it does with a request is a script, so that it can be late, silent, wrong or gone.
  */
 
+import { proofs } from '../../src/client/control'
 import type { RequestFrame } from '../../src/link/link'
 import { Responder } from '../../src/link/link'
 import { commands } from '../../src/melsec/commands/commands'
@@ -50,6 +51,9 @@ export class ScriptedPlc {
   /** What it does with a request; the probe is answered unless `probe` says otherwise. */
   script: Script = replying
   probe: Script = replying
+  /** What it does with the self tests that prove a fixed port. */
+  proof: Script = replying
+  proofs = 0
   /** What it does with a connection, before anything is received. */
   onConnection: (peer: ServerConnection) => void = () => {}
   readonly #protocol: MelsecProtocol<Head3e>
@@ -78,14 +82,14 @@ export class ScriptedPlc {
   #received(responder: Responder<Head3e>, frame: RequestFrame<Head3e>, peer: ServerConnection): void {
     const request = this.#protocol.readRequest(frame)
     if ('unknown' in request) throw new Error('the PLC was asked something it does not know')
-    const message = request.message as { head?: { number: number }; points: number; values: number[] }
+    const message = request.message as { head?: { number: number }; points: number; values: number[]; data: string }
     const device = message.head?.number ?? -1
     const answer = () => {
       if (request.name === 'writeWords') this.words.set(message.values, device)
       return responder.answer(
         frame,
         0,
-        this.#protocol.writeResponse(request, this.#response(request.name, device, message.points)),
+        this.#protocol.writeResponse(request, this.#response(request.name, device, message.points, message.data)),
       )
     }
     const asked: Asked = {
@@ -102,12 +106,18 @@ export class ScriptedPlc {
       this.probe(asked)
       return
     }
+    if (request.name === 'selfTest') {
+      this.proofs += 1
+      this.proof(asked)
+      return
+    }
     this.asked.push(device < 0 ? request.name : `${request.name} ${device}`)
     this.script(asked)
   }
 
-  #response(name: string, device: number, points: number): Record<string, unknown> {
+  #response(name: string, device: number, points: number, data: string): Record<string, unknown> {
     if (name === 'readTypeName') return { model: 'R04CPU'.padEnd(16), modelCode: 0x4800 }
+    if (name === 'selfTest') return { data }
     return name === 'readWords' ? { values: [...this.words.subarray(device, device + points)] } : {}
   }
 }
@@ -120,6 +130,7 @@ export function exchanges(frame: Frame) {
   const head = (number: number) => ({ device: 'D', number }) as const
   return {
     probe: () => protocol.exchange(commands.readTypeName, {}),
+    proof: proofs(protocol, () => 0.5),
     read: (number: number, points = 1) => protocol.exchange(commands.readWords, { head: head(number), points }),
     write: (number: number, ...values: number[]) =>
       protocol.exchange(commands.writeWords, { head: head(number), values }),

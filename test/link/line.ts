@@ -96,7 +96,7 @@ export class Line<Head> {
       case 'failed':
         throw done.outcome.error
       default:
-        throw new TimeoutError('no answer', done.outcome.sent ? 'unknown' : 'notSent')
+        throw new TimeoutError('no answer', 'sent' in done.outcome && done.outcome.sent ? 'unknown' : 'notSent')
     }
   }
 }

@@ -100,7 +100,8 @@ describe.each(slmpFrames)('$title', ({ framing }) => {
     const broken = untouched()
     broken.receive(Buffer.from('rubbish'), 1)
     broken.disconnected()
-    expect([told(broken), broken.transmit()]).toEqual([['drop BAD_FRAME', 'A disconnected unsent'], undefined])
+    const why = framing.correlation === 'serial' ? 'drop BAD_FRAME' : 'drop UNEXPECTED_ANSWER'
+    expect([told(broken), broken.transmit()]).toEqual([[why, 'A disconnected unsent'], undefined])
 
     const session = sessionOf(framing)
     const a = job('A')

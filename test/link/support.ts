@@ -87,6 +87,8 @@ function outcomeOf(outcome: Outcome): string {
       return `answered ${outcome.frame.body.toString('latin1')}${outcome.frame.endCode === 0 ? '' : ` ${outcome.frame.endCode.toString(16)}`}`
     case 'failed':
       return `failed ${outcome.error.code}`
+    case 'unproved':
+      return outcome.kind
     default:
       return `${outcome.kind} ${outcome.sent ? 'sent' : 'unsent'}`
   }

@@ -6,11 +6,13 @@ import type { Transport } from '../../src/transport/transport'
 
 export interface Recorder {
   readonly transport: Transport
-  /** `opened`, `received`, `closed` in the order of the calls. */
+  /** `opened`, `renewed`, `received`, `closed` in the order of the calls. */
   readonly calls: string[]
   readonly chunks: Buffer[]
   readonly opened: Promise<void>
   readonly closed: Promise<ConnectionError | undefined>
+  /** Renews, and resolves when it is done. */
+  renew(): Promise<void>
   /** Resolves when so many bytes have come in all. */
   bytes(count: number): Promise<Buffer>
 }
@@ -18,6 +20,7 @@ export interface Recorder {
 export function record(transport: Transport, act: { onOpened?: () => void; onReceived?: () => void } = {}): Recorder {
   const calls: string[] = []
   const chunks: Buffer[] = []
+  const renewals: (() => void)[] = []
   let received = 0
   const waiting: { count: number; resolve: (bytes: Buffer) => void }[] = []
   let opened = () => {}
@@ -33,6 +36,10 @@ export function record(transport: Transport, act: { onOpened?: () => void; onRec
       calls.push('opened')
       opened()
       act.onOpened?.()
+    },
+    renewed() {
+      calls.push('renewed')
+      for (const resolve of renewals.splice(0)) resolve()
     },
     received(bytes) {
       calls.push('received')
@@ -52,6 +59,12 @@ export function record(transport: Transport, act: { onOpened?: () => void; onRec
     chunks,
     opened: openedPromise,
     closed: closedPromise,
+    renew() {
+      return new Promise((resolve) => {
+        renewals.push(resolve)
+        transport.renew()
+      })
+    },
     bytes(count) {
       if (received >= count) return Promise.resolve(Buffer.concat(chunks))
       return new Promise((resolve) => waiting.push({ count, resolve }))

@@ -302,7 +302,8 @@ describe('ending', () => {
     const { port } = await serve()
     const client = open({ port })
     await client.opened
-    expect(client.transport.renew()).toBe(false)
+    expect(client.transport.renewable).toBe(false)
+    expect(() => client.transport.renew()).toThrow('its local port cannot be changed')
   })
 
   test('a fixed local port can be used again right after our own close, because that resets', async () => {

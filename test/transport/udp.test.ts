@@ -91,7 +91,6 @@ describe('opening', () => {
     }
     const client = open({ host: 'plc1', port, localAddress: '127.0.0.2', localPort: fixed, resolve })
     await client.opened
-    client.transport.renew()
     client.transport.send(Buffer.from('x'))
     const [, from] = await once(socket, 'message')
     expect(`${from.address}:${from.port}`).toBe(`127.0.0.2:${fixed}`)
@@ -245,7 +244,7 @@ describe('renewing', () => {
     await once(socket, 'message')
     const oldPort = received[0]?.port ?? 0
 
-    expect(client.transport.renew()).toBe(true)
+    await client.renew()
     client.transport.send(Buffer.from('next'))
     await once(socket, 'message')
     const newPort = received[1]?.port ?? 0
@@ -258,39 +257,42 @@ describe('renewing', () => {
     await client.bytes(12)
     await settle()
     expect(client.chunks.map(String)).toEqual(['right answer'])
-    expect(client.calls).toEqual(['opened', 'received'])
+    expect(client.calls).toEqual(['opened', 'renewed', 'received'])
   })
 
-  test.each(['free', 'fixed'])(
-    'with a %s local port, what has arrived and was not delivered before the renewal is lost',
-    async (kind) => {
-      const { socket, port } = await station()
-      const client = open({ port, localPort: kind === 'fixed' ? await closedPort() : 0 })
-      await client.opened
-      await new Promise<void>((resolve) => {
-        socket.send('late answer', localPort(client.transport.description), host, () => {
-          // In the receive queue of the old socket by now; the next turn of the event loop would deliver it.
-          client.transport.renew()
-          resolve()
-        })
-      })
-      echo(socket)
-      client.transport.send(Buffer.from('own'))
-      await client.bytes(3)
-      expect(client.chunks.map(String)).toEqual(['own'])
-    },
-  )
-
-  test('opened is not called again, and what is sent meanwhile goes out in order', async () => {
-    const { socket, received, port } = await station()
+  test('what has arrived and was not delivered before the renewal is lost', async () => {
+    const { socket, port } = await station()
     const client = open({ port })
     await client.opened
-    client.transport.renew()
-    for (const text of ['a', 'b', 'c']) client.transport.send(Buffer.from(text))
-    while (received.length < 3) await once(socket, 'message')
-    expect(received.map((datagram) => datagram.text)).toEqual(['a', 'b', 'c'])
-    expect(new Set(received.map((datagram) => datagram.port)).size).toBe(1)
-    expect(client.calls).toEqual(['opened'])
+    await new Promise<void>((resolve) => {
+      socket.send('late answer', localPort(client.transport.description), host, () => {
+        // In the receive queue of the old socket by now; the next turn of the event loop would deliver it.
+        resolve(client.renew())
+      })
+    })
+    echo(socket)
+    client.transport.send(Buffer.from('own'))
+    await client.bytes(3)
+    expect(client.chunks.map(String)).toEqual(['own'])
+  })
+
+  test('until the new port is there nothing can be sent, and nothing is kept to be sent from it', async () => {
+    const { socket, received, port } = await station()
+    const client = open({ port })
+    expect(client.transport.ready).toBe(false)
+    await client.opened
+    expect([client.transport.renewable, client.transport.ready]).toEqual([true, true])
+    const renewed = client.renew()
+    expect(client.transport.ready).toBe(false)
+    expect(() => client.transport.send(Buffer.from('given up'))).toThrow(
+      expect.objectContaining({ outcome: 'notSent' }),
+    )
+    await renewed
+    expect(client.transport.ready).toBe(true)
+    client.transport.send(Buffer.from('next'))
+    await once(socket, 'message')
+    expect(received.map(({ text }) => text)).toEqual(['next'])
+    expect(client.calls).toEqual(['opened', 'renewed'])
   })
 
   test('a port is not used again within 256 renewals', async () => {
@@ -299,29 +301,25 @@ describe('renewing', () => {
     await client.opened
     const ports = [localPort(client.transport.description)]
     for (let i = 0; i < 3000; i++) {
-      const before = client.transport.description
-      client.transport.renew()
-      for (let turn = 0; turn < 10 && client.transport.description === before; turn++) await settle()
+      await client.renew()
       ports.push(localPort(client.transport.description))
     }
     ports.forEach((used, index) => {
       expect(ports.slice(Math.max(0, index - 255), index)).not.toContain(used)
     })
-    expect(client.calls).toEqual(['opened'])
+    expect(new Set(client.calls)).toEqual(new Set(['opened', 'renewed']))
   })
 
-  test('a fixed local port stays the same, and renew() says that a late answer can still come', async () => {
+  test('a fixed local port stays the same, and cannot be renewed', async () => {
     const { socket, received, port } = await station()
     const fixed = await closedPort()
     const client = open({ port, localPort: fixed })
     await client.opened
-    for (let i = 0; i < 20; i++) {
-      expect(client.transport.renew()).toBe(false)
-      client.transport.send(Buffer.from(`${i}`))
-      await once(socket, 'message')
-    }
-    expect(new Set(received.map((datagram) => datagram.port))).toEqual(new Set([fixed]))
-    expect(client.calls).toEqual(['opened'])
+    expect(client.transport.renewable).toBe(false)
+    expect(() => client.transport.renew()).toThrow('its local port cannot be changed')
+    client.transport.send(Buffer.from('x'))
+    await once(socket, 'message')
+    expect(received).toEqual([{ text: 'x', port: fixed }])
   })
 })
 
@@ -332,8 +330,9 @@ test('1000 transports opened, renewed and closed leave no handle', async () => {
   for (let i = 0; i < 1000; i++) {
     const client = record(udpTransport({ host, port })())
     if (i % 4 > 0) await client.opened
-    if (i % 4 > 1) client.transport.renew()
-    if (i % 4 > 2) client.transport.send(Buffer.from('x'))
+    if (i % 4 === 2) client.transport.renew()
+    if (i % 4 === 3) await client.renew()
+    if (i % 4 === 3) client.transport.send(Buffer.from('x'))
     client.transport.close()
   }
   await settle()

@@ -1,0 +1,275 @@
+/**
+ * Answers without a serial number over real UDP, from a PLC written by hand: D[n] holds n, late or twice when the test
+ * says so. Whose answer is it?
+ */
+import { createSocket, type RemoteInfo, type Socket } from 'node:dgram'
+import { once } from 'node:events'
+import { afterEach, describe, expect, test } from '@jest/globals'
+import { createMelsecClient, type MelsecClient, type MelsecClientOptions } from '../../src/index'
+import { failureOf, until } from './line'
+
+interface Asked {
+  /** `D100`, `D100=7` or `echo`. */
+  readonly what: string
+  readonly answer: Buffer
+}
+
+type Reader = (frame: Buffer) => Asked | undefined
+
+const word = (value: number): Buffer => Buffer.of(value & 0xff, value >> 8)
+
+/** 3E, binary: 0401, 1401, 0101 and 0619. D5000 takes no value. */
+const read3e: Reader = (frame) => {
+  const command = frame.readUInt16LE(11)
+  const number = frame.length >= 18 ? frame.readUIntLE(15, 3) : 0
+  const answer = (endCode: number, data: Buffer) =>
+    Buffer.concat([Buffer.of(0xd0, 0), frame.subarray(2, 7), word(2 + data.length), word(endCode), data])
+  switch (command) {
+    case 0x0101:
+      return undefined
+    case 0x0619:
+      return { what: 'echo', answer: answer(0, frame.subarray(15)) }
+    case 0x0401:
+      return { what: `D${number}`, answer: answer(0, word(number)) }
+    case 0x1401: {
+      const refused = Buffer.concat([frame.subarray(2, 7), frame.subarray(11, 15)])
+      const what = `D${number}=${frame.readUInt16LE(21)}`
+      return { what, answer: number === 5000 ? answer(0x4031, refused) : answer(0, Buffer.alloc(0)) }
+    }
+    default:
+      throw new Error(`unexpected ${frame.toString('hex')}`)
+  }
+}
+
+const typeName3e = (frame: Buffer): Buffer =>
+  Buffer.concat([
+    Buffer.of(0xd0, 0),
+    frame.subarray(2, 7),
+    word(20),
+    word(0),
+    Buffer.from('Q03UDVCPU       '),
+    word(0x366),
+  ])
+
+/** 1E, binary: 01H, 03H, 15H and 16H. */
+const read1e: Reader = (frame) => {
+  const number = frame.length >= 8 ? frame.readUInt32LE(4) : 0
+  switch (frame[0]) {
+    case 0x15:
+      return undefined
+    case 0x16:
+      return { what: 'echo', answer: Buffer.concat([Buffer.of(0x96, 0), frame.subarray(4)]) }
+    case 0x01:
+      return { what: `D${number}`, answer: Buffer.concat([Buffer.of(0x81, 0), word(number)]) }
+    case 0x03:
+      return {
+        what: `D${number}=${frame.readUInt16LE(12)}`,
+        answer: number === 5000 ? Buffer.of(0x83, 0x57) : Buffer.of(0x83, 0),
+      }
+    default:
+      throw new Error(`unexpected ${frame.toString('hex')}`)
+  }
+}
+
+const frames = {
+  '3E': { read: read3e, typeName: typeName3e, client: { frame: '3E', profile: 'q' } },
+  '1E': { read: read1e, typeName: () => Buffer.of(0x95, 0, 0xf3), client: { frame: '1E', profile: 'iq-f' } },
+} as const
+
+type FrameUnderTest = keyof typeof frames
+
+const cleanups: (() => unknown)[] = []
+afterEach(async () => {
+  for (const cleanup of cleanups.splice(0)) await cleanup()
+})
+
+async function bound(): Promise<Socket> {
+  const socket = createSocket('udp4')
+  socket.bind(0, '127.0.0.1')
+  await once(socket, 'listening')
+  return socket
+}
+
+async function freePort(): Promise<number> {
+  const socket = await bound()
+  const { port } = socket.address()
+  await new Promise<void>((resolve) => socket.close(() => resolve()))
+  return port
+}
+
+async function line(frame: FrameUnderTest, options: Partial<MelsecClientOptions> = {}) {
+  const socket = await bound()
+  cleanups.push(() => new Promise<void>((resolve) => socket.close(() => resolve())))
+  const { read, typeName, client: kind } = frames[frame]
+  const plc = {
+    /** With the number of the port they came from. */
+    asked: [] as { what: string; port: number }[],
+    script: (_what: string, reply: () => void): void => reply(),
+  }
+  const send = (bytes: Buffer, { port, address }: RemoteInfo) => socket.send(bytes, port, address)
+  socket.on('message', (bytes, from) => {
+    const asked = read(bytes)
+    if (asked === undefined) return send(typeName(bytes), from)
+    plc.asked.push({ what: asked.what, port: from.port })
+    plc.script(asked.what, () => send(asked.answer, from))
+  })
+  const client: MelsecClient = createMelsecClient({
+    host: '127.0.0.1',
+    port: socket.address().port,
+    transport: 'udp',
+    ...kind,
+    allowWrites: true,
+    timeout: 1000,
+    reconnect: { first: 5, longest: 20 },
+    ...options,
+  })
+  cleanups.push(() => client.close())
+  await client.connect()
+  return { plc, client }
+}
+
+const told = (call: Promise<unknown>) =>
+  call.then(
+    (value) => value ?? 'done',
+    (error: { code: string; outcome: string }) => `${error.code} ${error.outcome}`,
+  )
+
+describe.each(['3E', '1E'] as const)('%s over UDP', (frame) => {
+  test('several calls ended by one signal: what was given up is never sent, and nobody gets its answer', async () => {
+    const { plc, client } = await line(frame)
+    const abort = new AbortController()
+    const { signal } = abort
+    const given = [100, 200, 300].map((number) => told(client.read(`D${number}`, { signal })))
+    const mine = told(client.read('D400'))
+    abort.abort()
+    expect(await Promise.all(given)).toEqual(['ABORTED unknown', 'ABORTED notSent', 'ABORTED notSent'])
+    expect(await mine).toBe(400)
+    expect(plc.asked.map(({ what }) => what).sort()).toEqual(['D100', 'D400'])
+    expect(new Set(plc.asked.map(({ port }) => port)).size).toBe(2)
+  })
+
+  test('the same with writes: a refused one is never told as done', async () => {
+    const { plc, client } = await line(frame)
+    const abort = new AbortController()
+    const { signal } = abort
+    const given = [1000, 2000].map((number) => told(client.write(`D${number}`, 1, { signal })))
+    const mine = told(client.write('D5000', 7))
+    abort.abort()
+    expect(await Promise.all(given)).toEqual(['ABORTED unknown', 'ABORTED notSent'])
+    expect(await mine).toBe('END_CODE refused')
+    expect(plc.asked.map(({ what }) => what)).not.toContain('D2000=1')
+  })
+
+  test('from a fixed port: an answer later than everything is not taken for the next one', async () => {
+    const { plc, client } = await line(frame, { localPort: await freePort(), timeout: 60 })
+    // In order, as a PLC answers: what is held back comes before all that was asked behind it.
+    const held: (() => void)[] = []
+    let slow = false
+    plc.script = (what, reply) => {
+      if (what === 'D100') slow = true
+      if (slow) held.push(reply)
+      else reply()
+    }
+    expect(await told(client.read('D100'))).toBe('TIMEOUT unknown')
+    for (let round = 0; round < 4; round++) expect(await told(client.read('D200'))).toContain('notSent')
+    expect(plc.asked.map(({ what }) => what)).not.toContain('D200')
+    const next = told(client.read('D200', { timeout: 2000 }))
+    slow = false
+    for (const reply of held.splice(0)) reply()
+    const value = await next
+    // It may have met the pause before the next attempt; then it says so, and sent nothing.
+    if (value !== 200) expect(value).toBe('OFFLINE notSent')
+    await until(() => client.state.name === 'connected')
+    expect(await client.read('D200')).toBe(200)
+    expect(await client.read('D201')).toBe(201)
+  })
+
+  test('from a fixed port: every answer twice, the second one later, and no value is another one', async () => {
+    const { plc, client } = await line(frame, { localPort: await freePort() })
+    let again = () => {}
+    plc.script = (_what, reply) => {
+      // The copy of the answer before, still in order, and this one.
+      again()
+      reply()
+      again = reply
+    }
+    for (const number of [1, 2, 3, 4, 5, 6]) expect(await client.read(`D${number}`)).toBe(number)
+    expect(await told(client.write('D5000', 7))).toBe('END_CODE refused')
+    expect(await told(client.write('D7', 7))).toBe('done')
+  })
+})
+
+test('3E from a fixed port to another station is refused, because the self test proves nothing there', async () => {
+  const routed = {
+    host: '127.0.0.1',
+    port: 1,
+    transport: 'udp',
+    profile: 'q',
+    route: { network: 1, station: 2 },
+  } as const
+  expect(() => createMelsecClient({ ...routed, frame: '3E', localPort: 5000 })).toThrow(
+    'With the 3E frame over UDP and a fixed localPort',
+  )
+  await createMelsecClient({ ...routed, frame: '3E' }).close()
+  await createMelsecClient({ ...routed, frame: '4E', localPort: 5000 }).close()
+})
+
+test.each<[string, Answer0619]>([
+  [
+    'refuses the self test',
+    (bytes) => answer3e(bytes, 0xc059, Buffer.concat([bytes.subarray(2, 7), bytes.subarray(11, 15)])),
+  ],
+  ['answers it with something else', (bytes) => answer3e(bytes, 0, word(7))],
+  ['does not answer it', () => undefined],
+])('a PLC that %s is used from a fixed port until it leaves a request unanswered', async (_what, selfTest) => {
+  let late = (): void => {}
+  const { port, asked } = await plainPlc((bytes, reply) => {
+    const command = bytes.readUInt16LE(11)
+    if (command === 0x0619) return reply(selfTest(bytes))
+    if (command === 0x0101) return reply(typeName3e(bytes))
+    const what = bytes.readUIntLE(15, 3)
+    const answer = answer3e(bytes, 0, word(what))
+    if (what !== 100) return reply(answer)
+    late = () => reply(answer)
+  })
+  const client = createMelsecClient({
+    host: '127.0.0.1',
+    port,
+    transport: 'udp',
+    frame: '3E',
+    profile: 'q',
+    localPort: await freePort(),
+    timeout: 80,
+    reconnect: { first: 5, longest: 20 },
+  })
+  cleanups.push(() => client.close())
+  await client.connect()
+  expect(await client.read('D1')).toBe(1)
+  expect(await client.read('D2')).toBe(2)
+  expect(await told(client.read('D100'))).toBe('TIMEOUT unknown')
+  const error = await failureOf(client.read('D200'))
+  expect(error).toMatchObject({ outcome: 'notSent' })
+  expect(error.message).toContain('did not return the self test')
+  expect(error.message).toContain('Without localPort')
+  late()
+  for (let round = 0; round < 5; round++) expect(await told(client.read('D200'))).toContain('notSent')
+  expect(asked).not.toContain(200)
+})
+
+type Answer0619 = (request: Buffer) => Buffer | undefined
+
+function answer3e(request: Buffer, endCode: number, data: Buffer): Buffer {
+  return Buffer.concat([Buffer.of(0xd0, 0), request.subarray(2, 7), word(2 + data.length), word(endCode), data])
+}
+
+/** Answers as the test says; `asked` has the device numbers of the reads. */
+async function plainPlc(serve: (bytes: Buffer, reply: (answer: Buffer | undefined) => void) => void) {
+  const socket = await bound()
+  cleanups.push(() => new Promise<void>((resolve) => socket.close(() => resolve())))
+  const asked: number[] = []
+  socket.on('message', (bytes, from) => {
+    if (bytes.readUInt16LE(11) === 0x0401) asked.push(bytes.readUIntLE(15, 3))
+    serve(bytes, (answer) => answer && socket.send(answer, from.port, from.address))
+  })
+  return { port: socket.address().port, asked }
+}
