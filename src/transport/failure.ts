@@ -8,13 +8,20 @@ export interface Place {
   readonly target: string
   /** What the user fixed of the local side, e.g. `local port 5000`; undefined when nothing. */
   readonly local: string | undefined
+  /** Whether something ever came back from there: then the address and the port are the right ones. */
+  readonly answeredBefore: boolean
 }
 
 interface Explanation {
   readonly what: string
   /** Ranked, most likely first. */
   readonly causes: readonly string[]
+  /** The same for a place from which something came back before. */
+  readonly afterItAnswered?: readonly string[]
 }
+
+const NETWORK_CHANGED = 'an address or a firewall was changed since it last answered'
+const CHANGED = 'the port settings of the PLC were changed since it last answered'
 
 const REFUSED = {
   tcp: {
@@ -24,6 +31,11 @@ const REFUSED = {
       'the PLC offers this port over UDP, not TCP',
       'all connections that the PLC has for this port are taken',
     ],
+    afterItAnswered: [
+      'the PLC is restarting, and does not take connections yet',
+      'all connections that the PLC has for this port are taken',
+      CHANGED,
+    ],
   },
   udp: {
     what: 'nothing receives UDP datagrams on this port',
@@ -32,16 +44,31 @@ const REFUSED = {
       'the PLC offers this port over TCP, not UDP',
       'the program on the other side has ended',
     ],
+    afterItAnswered: [
+      'the PLC is restarting, and does not listen yet',
+      'the program on the other side has ended',
+      CHANGED,
+    ],
   },
 } satisfies Record<'tcp' | 'udp', Explanation>
 
 const NO_ROUTE: Explanation = {
   what: 'the address cannot be reached',
   causes: ['the PLC is off or its cable is unplugged', 'wrong IP address', 'wrong subnet mask or default gateway'],
+  afterItAnswered: [
+    'the PLC is off or its cable is unplugged',
+    'a switch or router on the way is off',
+    NETWORK_CHANGED,
+  ],
 }
 const NO_ANSWER: Explanation = {
   what: 'there was no answer to the connection request',
   causes: ['the PLC is off or its cable is unplugged', 'wrong IP address', 'a firewall drops the packets'],
+  afterItAnswered: [
+    'the PLC is off or its cable is unplugged',
+    'a switch or router on the way is off',
+    NETWORK_CHANGED,
+  ],
 }
 const NO_NAME: Explanation = {
   what: 'the host name could not be resolved to an address',
@@ -57,7 +84,7 @@ const NO_RESOURCES: Explanation = {
 }
 
 const CONNECT_EXPLANATIONS: Readonly<Record<string, Explanation>> = {
-  ECONNRESET: { what: 'the connection was reset while it was being opened', causes: REFUSED.tcp.causes },
+  ECONNRESET: { ...REFUSED.tcp, what: 'the connection was reset while it was being opened' },
   ETIMEDOUT: NO_ANSWER,
   EHOSTUNREACH: NO_ROUTE,
   EHOSTDOWN: NO_ROUTE,
@@ -93,7 +120,7 @@ export function connectFailure(place: Place, cause: unknown, outcome: 'notSent' 
   if (local !== undefined) return local
   const explanation = explain(place.protocol, code)
   const message = `${where(place)}: ${explanation?.what ?? 'it failed'} (${code})`
-  return error('CONNECT_FAILED', message, outcome, cause, explanation?.causes)
+  return error('CONNECT_FAILED', message, outcome, cause, explanation && causesOf(explanation, place))
 }
 
 /** It was open and ended without the peer closing it. */
@@ -106,7 +133,7 @@ export function lostConnection(place: Place, cause: unknown, outcome: 'notSent' 
 /** No connection within the transport's own limit. */
 export function connectTimedOut(place: Place, ms: number): ConnectionError {
   const message = `${where(place)}: ${NO_ANSWER.what} within ${ms} ms`
-  return error('CONNECT_FAILED', message, 'notSent', undefined, NO_ANSWER.causes)
+  return error('CONNECT_FAILED', message, 'notSent', undefined, causesOf(NO_ANSWER, place))
 }
 
 /** `send` or `renew` outside the time in which the transport is open. */
@@ -166,6 +193,10 @@ function explain(protocol: 'tcp' | 'udp', code: string): Explanation | undefined
   // Windows reports an unreachable UDP port as a reset.
   if (code === 'ECONNREFUSED' || (protocol === 'udp' && code === 'ECONNRESET')) return REFUSED[protocol]
   return CONNECT_EXPLANATIONS[code]
+}
+
+function causesOf({ causes, afterItAnswered }: Explanation, { answeredBefore }: Place): readonly string[] {
+  return (answeredBefore ? afterItAnswered : undefined) ?? causes
 }
 
 function where(place: Place): string {

@@ -42,13 +42,15 @@ export function tcpTransport(options: TcpOptions): OpenTransport {
   checkEndpoint(options)
   checkMilliseconds('connectTimeout', options.connectTimeout, 1)
   if (options.keepAlive !== false) checkMilliseconds('keepAlive', options.keepAlive, 1000)
-  return () => new TcpTransport(options)
+  const history = { answered: false }
+  return () => new TcpTransport(options, history)
 }
 
 class TcpTransport implements Transport {
   readonly kind = 'stream'
   readonly renewable = false
   readonly #options: TcpOptions
+  readonly #history: { answered: boolean }
   #state: 'new' | 'opening' | 'open' | 'done' = 'new'
   #handlers: TransportHandlers | undefined
   #socket: Socket | undefined
@@ -57,8 +59,10 @@ class TcpTransport implements Transport {
   #sent = false
   #cancelTimeout = () => {}
 
-  constructor(options: TcpOptions) {
+  /** `history`: of all transports to this port. */
+  constructor(options: TcpOptions, history: { answered: boolean }) {
     this.#options = options
+    this.#history = history
     this.#address = options.host
   }
 
@@ -121,6 +125,7 @@ class TcpTransport implements Transport {
       onread: {
         buffer,
         callback: (length) => {
+          this.#history.answered = true
           if (this.#state === 'open') this.#handlers?.received(Buffer.from(buffer.subarray(0, length)))
           return true
         },
@@ -171,6 +176,7 @@ class TcpTransport implements Transport {
       protocol: 'tcp',
       target: describeTarget(this.#options, this.#address),
       local: describeLocal(this.#options),
+      answeredBefore: this.#history.answered,
     }
   }
 }

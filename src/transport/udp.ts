@@ -35,14 +35,20 @@ const PORT_TRIES = 16
 export function udpTransport(options: UdpOptions): OpenTransport {
   checkEndpoint(options)
   // Shared by all transports made here, so that a reconnection does not take an old port again either.
-  const ports = new RecentPorts()
-  return () => new UdpTransport(options, ports)
+  const shared = { ports: new RecentPorts(), answered: false }
+  return () => new UdpTransport(options, shared)
+}
+
+/** Of all transports to one port of a PLC. */
+interface Shared {
+  readonly ports: RecentPorts
+  answered: boolean
 }
 
 class UdpTransport implements Transport {
   readonly kind = 'datagram'
   readonly #options: UdpOptions
-  readonly #ports: RecentPorts
+  readonly #shared: Shared
   /** `failed`: the reason is on its way to `closed`. */
   #state: 'new' | 'opening' | 'open' | 'failed' | 'done' = 'new'
   #handlers: TransportHandlers | undefined
@@ -54,9 +60,9 @@ class UdpTransport implements Transport {
   #address: string
   #sent = false
 
-  constructor(options: UdpOptions, ports: RecentPorts) {
+  constructor(options: UdpOptions, shared: Shared) {
     this.#options = options
-    this.#ports = ports
+    this.#shared = shared
     this.#address = options.host
   }
 
@@ -126,6 +132,7 @@ class UdpTransport implements Transport {
     socket.on('message', (bytes, from) => {
       // What came in between bind and connect can be from anybody.
       if (socket !== this.#socket || from.port !== port || from.address !== this.#peer) return
+      this.#shared.answered = true
       if (bytes.length > 0) this.#handlers?.received(bytes)
     })
     socket.on('connect', () => {
@@ -133,7 +140,7 @@ class UdpTransport implements Transport {
     })
     socket.on('listening', () => {
       if (socket !== this.#socket) return
-      if (localPort === 0 && !this.#ports.take(socket.address().port)) {
+      if (localPort === 0 && !this.#shared.ports.take(socket.address().port)) {
         this.#drop()
         if (tries > 1) this.#bind(tries - 1)
         else this.#fail(Object.assign(new Error('no fresh local port'), { code: 'EADDRNOTAVAIL' }))
@@ -180,6 +187,7 @@ class UdpTransport implements Transport {
       protocol: 'udp',
       target: describeTarget(this.#options, this.#address),
       local: describeLocal(this.#options),
+      answeredBefore: this.#shared.answered,
     }
     return connectFailure(place, cause, this.#sent ? 'unknown' : 'notSent')
   }

@@ -97,6 +97,21 @@ describe('failing to open', () => {
     expect(error.causes[0]).toContain('port number')
   })
 
+  test('where something answered before, a wrong port is not what is thought of', async () => {
+    const server = await serve((socket) => socket.pipe(socket))
+    const transports = tcpTransport({ host, port: server.port })
+    const first = record(transports())
+    await first.opened
+    first.transport.send(Buffer.from('x'))
+    await first.bytes(1)
+    first.transport.close()
+    await server.close()
+    const error = await record(transports()).closed
+    expect(error?.message).toContain('ECONNREFUSED')
+    expect(error?.causes[0]).toBe('the PLC is restarting, and does not take connections yet')
+    expect(error?.causes.join()).not.toContain('port number')
+  })
+
   test('a name that cannot be resolved', async () => {
     const notFound = Object.assign(new Error('getaddrinfo ENOTFOUND plc1'), { code: 'ENOTFOUND' })
     const error = await failure({ host: 'plc1', port: 5007, resolve: () => Promise.reject(notFound) })

@@ -129,6 +129,20 @@ describe('failing', () => {
     expect(() => client.transport.renew()).toThrow(ConnectionError)
   })
 
+  test('where something answered before, a wrong port is not what is thought of', async () => {
+    const { socket, port, close } = await station()
+    echo(socket)
+    const client = open({ port })
+    await client.opened
+    client.transport.send(Buffer.from('x'))
+    await client.bytes(1)
+    close()
+    client.transport.send(Buffer.from('y'))
+    const error = await client.closed
+    expect(error?.causes[0]).toBe('the PLC is restarting, and does not listen yet')
+    expect(error?.causes.join()).not.toContain('port number')
+  })
+
   test('many sends to a port on which nothing listens end it once and never throw', async () => {
     const client = open({ port: await closedPort() })
     await client.opened
