@@ -1,6 +1,7 @@
 /** Node `melsec-jw-read`: reads device values when a message arrives and passes the message on with them. */
 import type { NodeAPI } from 'node-red'
 import type { Item, MelsecClient } from '../src/index'
+import { int64Forms } from './carried-value'
 import { refusal } from './failure'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
@@ -33,6 +34,7 @@ function outputOf(settings: StoredSettings, { texts }: Tools): OutputSettings {
     property: textIn(settings, 'property', texts) || 'payload',
     quality: settings.quality === true,
     partial: wordIn(settings, 'partial', partialRules, texts),
+    int64: wordIn(settings, 'int64', int64Forms, texts),
   }
 }
 

@@ -7,12 +7,13 @@ import { registerUser, type Tools, type Work } from './node'
 import { type ItemRow, itemOf, nameOf, rowsIn, textIn, wordIn } from './stored'
 import { evaluate } from './typed-input'
 import { readBackFailure, writeFailure } from './write-result'
-import { entriesByName, type NamedEntry, typedNumber, writable } from './write-values'
+import { entriesByName, entryByTopic, type NamedEntry, typedNumber, writable } from './write-values'
+import { fittingEntries } from './written-value'
 
 const migrations: readonly Migration[] = []
 
-/** Where the values come from; `rows`: each row of the node has its own. */
-const sources = ['rows', 'msg', 'flow', 'global', 'jsonata', 'json'] as const
+/** Where the values come from; `rows`: each row of the node has its own. `topic`: `msg.payload`, for the address in `msg.topic`. */
+const sources = ['rows', 'topic', 'msg', 'flow', 'global', 'jsonata', 'json'] as const
 /** What the value of a row is. */
 const valueTypes = ['num', 'str', 'bool', 'json', 'msg', 'flow', 'global', 'jsonata'] as const
 
@@ -21,9 +22,11 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
   const entriesFor = entrySource(settings, tools)
   const readBack = settings.readBack === true
   const readModifyWrite = settings.readModifyWrite === true
+  const convert = settings.convert === true
   return async (message) => {
-    const entries = await entriesFor(message)
+    const given = await entriesFor(message)
     const client = connection.clientFor('write')
+    const entries = await fittingEntries(client, given, convert)
     const results = await client.write(entries, { readModifyWrite, allOrNothing: true })
     const failure = writeFailure(entries, results, texts)
     if (failure !== undefined) throw failure
@@ -69,6 +72,7 @@ function entrySource(settings: StoredSettings, tools: Tools): EntrySource {
         }),
       )
   }
+  if (type === 'topic') return async ({ topic, payload }) => [entryByTopic(topic, payload, rows, texts)]
   const input = { value: textIn(settings, 'values', texts), type }
   return async (message) => entriesByName(await evaluate(RED, node, message, input), rows, texts)
 }

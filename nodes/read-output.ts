@@ -1,6 +1,7 @@
 // The messages of a read node: the values in the form the user chose, and what becomes of items that failed.
 import type { NodeAPI, NodeMessage, NodeMessageInFlow } from 'node-red'
 import type { ReadResult } from '../src/index'
+import { carried, type Int64Form } from './carried-value'
 import { detailsOf, type FailureDetails, failureOf, refusal } from './failure'
 import type { Answer } from './node'
 import type { Texts } from './texts'
@@ -20,6 +21,8 @@ export interface OutputSettings {
   /** Each value with its quality and timestamp; failures are in the message then, and none is an error. */
   readonly quality: boolean
   readonly partial: PartialRule
+  /** What LINT and ULINT are in the message. */
+  readonly int64: Int64Form
 }
 
 /** A value with its quality. */
@@ -87,8 +90,9 @@ function messagesOf(
   errors: readonly ItemError[],
   tools: OutputTools,
 ): NodeMessage[] {
-  const { form, quality } = settings
-  const value = (result: ReadResult) => (quality ? qualified(result, tools.texts) : result.ok ? result.value : null)
+  const { form, quality, int64 } = settings
+  const plain = (result: ReadResult) => (result.ok ? carried(result.value, int64) : null)
+  const value = (result: ReadResult) => (quality ? qualified(result, plain(result), tools.texts) : plain(result))
   if (form === 'messages') return separate(settings, readings, message, errors, tools, value)
   const { names, results } = readings
   const shown = { object: () => byName(names, results, quality, value), array: () => results.map(value) }
@@ -167,8 +171,8 @@ function tornOf({ names, results }: Readings): string[] {
   return results.flatMap((result, index) => (result.ok && result.torn ? [names[index] ?? result.item] : []))
 }
 
-function qualified(result: ReadResult, texts: Texts): QualifiedValue {
+function qualified(result: ReadResult, value: unknown, texts: Texts): QualifiedValue {
   const { timestamp } = result
   if (!result.ok) return { value: null, quality: 'bad', timestamp, error: detailsOf(result.error, texts) }
-  return { value: result.value, quality: 'good', timestamp, ...(result.torn ? { torn: true } : {}) }
+  return { value, quality: 'good', timestamp, ...(result.torn ? { torn: true } : {}) }
 }

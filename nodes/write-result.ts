@@ -1,5 +1,6 @@
 // What became of a write: one failure that says which items were written and which were not.
 import type { ReadResult, WriteResult } from '../src/index'
+import { carried } from './carried-value'
 import { detailsOf, type FailureDetails, NodeFailure } from './failure'
 import type { Texts } from './texts'
 import { isSame, type NamedEntry, type WritableValue } from './write-values'
@@ -54,9 +55,11 @@ export function readBackFailure(
   const differences = entries.flatMap(({ name, value }, index): Difference[] => {
     const result = results[index]
     if (result === undefined) return []
-    if (!result.ok) return [{ name, item: result.item, written: value, error: detailsOf(result.error, texts) }]
+    // A failure is looked at as JSON, too.
+    const written = carried(value, 'number')
+    if (!result.ok) return [{ name, item: result.item, written, error: detailsOf(result.error, texts) }]
     const same = isSame(value, result.value, types[index] ?? '')
-    return same ? [] : [{ name, item: result.item, written: value, read: result.value }]
+    return same ? [] : [{ name, item: result.item, written, read: carried(result.value, 'number') }]
   })
   if (differences.length === 0) return undefined
   const names = differences.map(({ name }) => name).join(', ')

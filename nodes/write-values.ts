@@ -24,10 +24,21 @@ export function entriesByName(given: unknown, rows: readonly ItemRow[], texts: T
   }
   const entries = Object.entries(given)
   if (entries.length === 0) throw refusal('BAD_INPUT', texts('error.noValues'))
-  return entries.map(([name, value]: [string, unknown]) => {
-    const row = rows.find((candidate) => nameOf(candidate) === name)
-    return { name, item: row === undefined ? name : itemOf(row), value: writable(name, value, texts) }
-  })
+  return entries.map(([name, value]: [string, unknown]) => entryOf(name, value, rows, texts))
+}
+
+/**
+ * @param topic the name of a row, or an address
+ * @throws NodeFailure BAD_INPUT when the topic is no text; nothing is written then.
+ */
+export function entryByTopic(topic: unknown, value: unknown, rows: readonly ItemRow[], texts: Texts): NamedEntry {
+  if (typeof topic === 'string' && topic.trim() !== '') return entryOf(topic, value, rows, texts)
+  throw refusal('BAD_INPUT', texts('error.notTopic', { kind: topic === '' ? '""' : kindOf(topic) }))
+}
+
+function entryOf(name: string, value: unknown, rows: readonly ItemRow[], texts: Texts): NamedEntry {
+  const row = rows.find((candidate) => nameOf(candidate) === name)
+  return { name, item: row === undefined ? name : itemOf(row), value: writable(name, value, texts) }
 }
 
 /** @throws NodeFailure BAD_VALUE naming the item when it is no value a PLC can hold. */
