@@ -1,7 +1,7 @@
 // The settings of a connection as a flow stores them, and the client's options made of them.
 import type { Node, NodeAPI } from 'node-red'
 import type { MelsecClientOptions, ProfileId, Route, ValueFormat } from '../src/index'
-import { profileIds } from '../src/index'
+import { encodings, profileIds } from '../src/index'
 import { type NodeFailure, refusal } from './failure'
 import type { Texts } from './texts'
 import { withVariables } from './typed-input'
@@ -43,7 +43,7 @@ export interface ConnectionSettings {
   readonly inFlight: string
   /** Words. */
   readonly gap: string
-  /** Characters of STRING: `ascii`, `utf8`, `shift-jis`, `utf16`. */
+  /** Characters of STRING, one of `encodings`. */
   readonly encoding: string
   /** `low-first` or `high-first`. */
   readonly wordOrder: string
@@ -182,7 +182,7 @@ function routeOf(settings: ConnectionSettings, texts: Texts): Partial<Route> {
 
 function formatOf(settings: ConnectionSettings, texts: Texts): ValueFormat {
   return present({
-    encoding: choice(settings, 'encoding', ['ascii', 'utf8', 'shift-jis', 'utf16'], texts),
+    encoding: choice(settings, 'encoding', encodings, texts),
     wordOrder: choice(settings, 'wordOrder', ['low-first', 'high-first'], texts),
   })
 }

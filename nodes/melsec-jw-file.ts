@@ -1,6 +1,6 @@
 /** Node `melsec-jw-file`: files on the drives of the CPU. */
 import type { NodeAPI, NodeMessageInFlow } from 'node-red'
-import { type Encoding, type FilePath, type MelsecClient, textOfBytes } from '../src/index'
+import { encodings, type FilePath, type MelsecClient, textOfBytes } from '../src/index'
 import { resolverOf } from './connection-settings'
 import { refusal } from './failure'
 import { contentOf, fileDateOf, filePathOf } from './file-given'
@@ -22,7 +22,7 @@ const dateTypes = ['date', 'msg', 'flow', 'global', 'json', 'jsonata'] as const
 const outputs = ['buffer', 'text'] as const
 const modes = ['new', 'replace', 'overwrite'] as const
 const attributes = ['readOnly', 'readWrite'] as const
-const encodings = ['utf8', 'shift-jis', 'utf16', 'ascii'] as const satisfies readonly Encoding[]
+const textEncodings = ['utf8', ...encodings.filter((each) => each !== 'utf8')] as const
 
 /** What an action is made of. */
 interface Parts {
@@ -126,7 +126,7 @@ const actionNames = Object.keys(actions) as [ActionName, ...ActionName[]]
 
 function reading({ settings, tools, file, reader, password, transfer }: Parts): Take {
   const { texts } = tools
-  const encoding = wordIn(settings, 'encoding', encodings, texts)
+  const encoding = wordIn(settings, 'encoding', textEncodings, texts)
   const asText = wordIn(settings, 'output', outputs, texts) === 'text'
   const limit = limitIn(settings, texts)
   return async (message) => {
@@ -140,7 +140,7 @@ function reading({ settings, tools, file, reader, password, transfer }: Parts): 
 
 function writing({ settings, tools, file, writer, password, transfer }: Parts): Take {
   const { texts } = tools
-  const encoding = wordIn(settings, 'encoding', encodings, texts)
+  const encoding = wordIn(settings, 'encoding', textEncodings, texts)
   const mode = wordIn(settings, 'mode', modes, texts)
   const data = inputIn(settings, 'data', dataTypes, tools)
   return async (message) => {

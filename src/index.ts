@@ -118,6 +118,7 @@ export type { OpenTransport, Transport, TransportHandlers } from './transport/tr
 export {
   bytesOfText,
   type Encoding,
+  encodings,
   formatType,
   type PlcValue,
   parseType,

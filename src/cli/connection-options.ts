@@ -2,6 +2,7 @@
 import { Argument, type Command, InvalidArgumentError, Option } from 'commander'
 import {
   createMelsecClient,
+  encodings,
   type FrameName,
   type MelsecClient,
   type MelsecClientOptions,
@@ -50,9 +51,6 @@ export interface FormatOptions {
 }
 
 const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullable<ValueFormat['wordOrder']>[]
-const ENCODINGS = ['ascii', 'utf8', 'shift-jis', 'utf16'] as const satisfies readonly NonNullable<
-  ValueFormat['encoding']
->[]
 /** Every frame that any family has. */
 const FRAMES: readonly FrameName[] = [...new Set(Object.values(profiles).flatMap(({ frames }) => frames))].sort()
 
@@ -173,7 +171,7 @@ export function addConnectionOptions(command: Command): Command {
     .addOption(jsonOption())
 }
 
-export const encodingOption = (description: string) => choice('--encoding <name>', description, ENCODINGS)
+export const encodingOption = (description: string) => choice('--encoding <name>', description, encodings)
 
 /** Adds the options that say how words become values. */
 export function addFormatOptions(command: Command): Command {

@@ -8,7 +8,7 @@ export const formatOptions = {
   /** Order of the two bytes of every word, of numbers and of text. MELSEC: low byte first (`AB` is 4241H). */
   byteOrder: ['low-first', 'high-first'],
   /** Character code of STRING. WSTRING is always UTF-16, because its type says so. */
-  encoding: ['ascii', 'utf8', 'shift-jis', 'utf16'],
+  encoding: ['ascii', 'utf8', 'shift-jis', 'gbk', 'gb18030', 'utf16'],
   /** Whether spaces at the end of text are cut off when it is read. */
   trimSpaces: [false, true],
 } as const
@@ -19,6 +19,8 @@ export type ValueFormat = {
 }
 /** Character code of STRING. */
 export type Encoding = NonNullable<ValueFormat['encoding']>
+/** Every character code of STRING, the default first. */
+export const encodings: readonly [Encoding, ...Encoding[]] = formatOptions.encoding
 
 function isOption(key: string): key is keyof typeof formatOptions {
   return Object.hasOwn(formatOptions, key)

@@ -26,6 +26,19 @@ interface CharacterCode {
 // With the u flag a class of surrogates matches unpaired ones only. They are no characters: UTF-8 cannot carry them.
 const unpaired = /\p{Surrogate}/u
 
+/** A character code of one to four bytes for each character, in a table that iconv-lite has. */
+function byTable(title: string, table: string): CharacterCode {
+  return {
+    title,
+    unit: 1,
+    encode: (text) => iconv.encode(text, table),
+    decode: (bytes) => {
+      const text = iconv.decode(bytes, table)
+      return text.includes('\ufffd') ? undefined : text
+    },
+  }
+}
+
 const codes: { readonly [E in Encoding]: CharacterCode } = {
   ascii: {
     title: 'ASCII',
@@ -39,16 +52,11 @@ const codes: { readonly [E in Encoding]: CharacterCode } = {
     encode: (text) => Buffer.from(text, 'utf8'),
     decode: (bytes) => (isUtf8(bytes) ? bytes.toString('utf8') : undefined),
   },
-  'shift-jis': {
-    title: 'Shift-JIS',
-    unit: 1,
-    // Code page 932, what Windows and so GX Works mean by Shift-JIS.
-    encode: (text) => iconv.encode(text, 'cp932'),
-    decode: (bytes) => {
-      const text = iconv.decode(bytes, 'cp932')
-      return text.includes('\ufffd') ? undefined : text
-    },
-  },
+  // Code page 932, what Windows and so GX Works mean by Shift-JIS.
+  'shift-jis': byTable('Shift-JIS', 'cp932'),
+  // Code page 936, what Windows and so GX Works mean by GBK.
+  gbk: byTable('GBK', 'cp936'),
+  gb18030: byTable('GB18030', 'gb18030'),
   utf16: {
     title: 'UTF-16',
     unit: 2,

@@ -88,7 +88,7 @@ describe('a format', () => {
   test.each([
     [{ wordOrder: 'big' }, /wordOrder is low-first or high-first, not 'big'/],
     [{ byteOrder: true }, /byteOrder/],
-    [{ encoding: 'sjis' }, /encoding is ascii or utf8 or shift-jis or utf16/],
+    [{ encoding: 'sjis' }, /encoding is ascii or utf8 or shift-jis or gbk or gb18030 or utf16/],
     [{ trimSpaces: 'yes' }, /trimSpaces is false or true/],
     [{ wordorder: 'high-first' }, /no option 'wordorder'. Options: wordOrder, byteOrder, encoding, trimSpaces/],
     [{ toString: 1 }, /no option 'toString'/],

@@ -23,6 +23,9 @@ describe('words of known texts', () => {
     ['STRING(5)', 'ｶﾞｽA', sjis, [0xdeb6, 0x41bd, 0x0000]],
     ['STRING(3)', '日A', sjis, [0xfa93, 0x0041]],
     ['STRING(4)', '~\\～', sjis, [0x5c7e, 0x6081]],
+    ['STRING(5)', '温度A', { encoding: 'gbk' }, [0xc2ce, 0xc8b6, 0x0041]],
+    // GB 18030: four bytes for what GBK does not have.
+    ['STRING(6)', '温😀', { encoding: 'gb18030' }, [0xc2ce, 0x3994, 0x36fc]],
     ['STRING(6)', 'é日', { encoding: 'utf8' }, [0xa9c3, 0x97e6, 0x00a5]],
     ['STRING(4)', 'A日', { encoding: 'utf16' }, [0x0041, 0x65e5]],
     ['WSTRING(3)', '日A', {}, [0x65e5, 0x0041, 0]],
@@ -68,6 +71,9 @@ describe('reading', () => {
     ['a lead byte without its second in Shift-JIS', [0x2093], sjis],
     ['a lead byte cut off at the end', [0x9341], sjis],
     ['a byte Shift-JIS does not have', [0x41ff], sjis],
+    ['a lead byte without its second in GBK', [0x2081], { encoding: 'gbk' }],
+    ['a pair that GBK does not have', [0xa1aa], { encoding: 'gbk' }],
+    ['a lead byte cut off at the end in GB18030', [0x8141], { encoding: 'gb18030' }],
     ['a continuation byte in UTF-8', [0x4180], { encoding: 'utf8' }],
     ['an overlong form in UTF-8', [0xafc0], { encoding: 'utf8' }],
     ['half a surrogate pair in UTF-16', [0xd83d], { encoding: 'utf16' }],
@@ -122,6 +128,9 @@ describe('writing', () => {
     ['日é', sjis, /'é' \(U\+00E9\) does not exist in Shift-JIS/],
     ['한', sjis, /U\+D55C/],
     ['日😀', sjis, /U\+1F600/],
+    ['温é한', { encoding: 'gbk' }, /'한' \(U\+D55C\) does not exist in GBK/],
+    ['😀', { encoding: 'gbk' }, /U\+1F600/],
+    ['\ufffd', { encoding: 'gb18030' }, /U\+FFFD/],
     // Would become another character: a backslash, a tilde.
     ['¥', sjis, /U\+00A5/],
     ['‾', sjis, /U\+203E/],
@@ -164,6 +173,8 @@ describe.each(orders)('texts in order %j', (order) => {
     ascii: fc.integer({ min: 1, max: 0x7f }).map((code) => String.fromCharCode(code)),
     utf8: fc.string({ unit: 'binary', minLength: 1, maxLength: 1 }).filter((text) => text !== '\0'),
     'shift-jis': fc.constantFrom(...'A?~\\ 0ｱﾞｶ｡日本語漢字ーソ表能～￥①㈱ぁん'),
+    gbk: fc.constantFrom(...'A?~\\ 0温度产品绿茶高级，。￥①㈱é€ぁん'),
+    gb18030: fc.constantFrom(...'A?~\\ 0温度产品绿茶，é€ぁん한😀𠀀ﾀ'),
     utf16: fc.string({ unit: 'binary', minLength: 1, maxLength: 1 }).filter((text) => text !== '\0'),
   }
 

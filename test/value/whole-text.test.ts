@@ -9,6 +9,8 @@ describe('bytes of a whole text', () => {
     ['utf8', '温度', 'e6b8a9e5baa6'],
     ['shift-jis', '温度', '89b79378'],
     ['shift-jis', 'ｶﾞｽ', 'b6debd'],
+    ['gbk', '温度', 'cec2b6c8'],
+    ['gb18030', '温😀', 'cec29439fc36'],
     ['utf16', '温A', '296e4100'],
     ['utf16', '\ufeffA', 'fffe4100'],
     ['utf8', '\ufeffA', 'efbbbf41'],
@@ -44,6 +46,8 @@ describe('refused', () => {
     ['utf8', '4182'],
     ['shift-jis', '4181'],
     ['shift-jis', 'a0'],
+    ['gbk', '41ce'],
+    ['gb18030', '9439fc'],
     ['utf16', '410042'],
     ['utf16', '00d8'],
     // High byte first.
@@ -55,6 +59,7 @@ describe('refused', () => {
   test.each<[Encoding, string, string]>([
     ['ascii', 'A é', 'U+00E9'],
     ['shift-jis', '温😀', 'U+1F600'],
+    ['gbk', '温😀', 'U+1F600'],
     ['utf8', 'A\ud800', 'UTF-8'],
   ])('%s: %j is not written', (encoding, text, says) => {
     expect(refusal('BAD_VALUE', () => bytesOfText(text, encoding))).toContain(says)
