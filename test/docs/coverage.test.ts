@@ -301,3 +301,17 @@ describe('nodes', () => {
     expect(namesIn(`docs/nodes/${name}.md`, list).sort()).toEqual(named.sort())
   })
 })
+
+describe('the pages of setting up PLCs', () => {
+  const pages = filesBelow('docs/plc-setup', '.md')
+
+  test('name every profile of the PLCs they are about', () => {
+    const named = new Set(pages.flatMap((path) => codeSpansOf(proseOf(path))))
+    const without = ['remote-head', 'nz2gf-etb', 'generic']
+    expect(profileIds.filter((id) => !named.has(id))).toEqual(without)
+  })
+
+  test('override no limits: a port with limits of its own has a profile of its own', () => {
+    expect(pages.filter((path) => /limits:/.test(readText(path)))).toEqual([])
+  })
+})
