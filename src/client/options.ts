@@ -3,6 +3,7 @@ import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import { frameFacts } from '../melsec/frames'
 import {
+  asciiXyOf,
   type FrameName,
   inFlightBound,
   type Profile,
@@ -38,7 +39,7 @@ export interface MelsecClientOptions {
   readonly frame?: FrameName
   /** Data code of the PLC's port; default `binary`. */
   readonly code?: DataCode
-  /** Digits of X and Y in ASCII code, as the PLC's port is set; needed for X and Y of an iQ-F in ASCII code. */
+  /** Digits of X and Y in ASCII code, as the port of an iQ-F is set; needed for its X and Y in ASCII code. Others have no such setting. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** Digits of ZR in ASCII code; needed for ZR in ASCII code, because the manuals disagree. */
   readonly asciiZr?: 'decimal' | 'hexadecimal'
@@ -91,6 +92,7 @@ export interface Settings {
   readonly profile: Profile
   readonly frame: FrameName
   readonly code: DataCode
+  readonly asciiXy: 'octal' | 'hexadecimal' | undefined
   readonly route: Route
   /** In units of 250 ms. */
   readonly timer: number
@@ -165,10 +167,9 @@ export function settle(options: MelsecClientOptions): Settings {
   if (options.localAddress !== undefined && typeof options.localAddress !== 'string') {
     throw new RequestError('BAD_OPTION', 'localAddress is the address of a network interface, as text.', 'localAddress')
   }
-  oneOf('asciiXy', options.asciiXy, [undefined, 'octal', 'hexadecimal'])
   oneOf('asciiZr', options.asciiZr, [undefined, 'decimal', 'hexadecimal'])
   oneOf('asciiWordOrder', options.asciiWordOrder, [undefined, 'low-first', 'high-first'])
-  const profile = resolveProfile(profileGiven(options.profile ?? 'generic'), options.profileOverrides ?? undefined)
+  const profile = profileOf(options)
   const transport = oneOf('transport', options.transport ?? 'tcp', ['tcp', 'udp'])
   const frame = frameOf(profile, options.frame)
   if (options.openTransport === undefined) checkPeer(options)
@@ -179,6 +180,7 @@ export function settle(options: MelsecClientOptions): Settings {
     profile,
     frame,
     code: codeOf(frame, options.code ?? profile.code),
+    asciiXy: asciiXyOf(profile, oneOf('asciiXy', options.asciiXy, [undefined, 'octal', 'hexadecimal'])),
     route: provable(options, transport, frame, reachable(profile, routeOf(frame, options.route))),
     timer: timerOf(profile, options.monitoringTimer),
     xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
@@ -198,6 +200,12 @@ export function settle(options: MelsecClientOptions): Settings {
     clock: options.clock ?? realClock,
     random: options.random ?? Math.random,
   }
+}
+
+/** Of a PLC nobody knows the notation is the user's word for what it is, as if it stood in a profile. */
+function profileOf({ profile: given, profileOverrides, xyRadix }: MelsecClientOptions): Profile {
+  const profile = resolveProfile(profileGiven(given ?? 'generic'), profileOverrides ?? undefined)
+  return profile.id === 'generic' && (xyRadix === 8 || xyRadix === 16) ? { ...profile, xyRadix } : profile
 }
 
 /** The PLC says the types of labels and how their words lie; only text has a code that it does not say. */

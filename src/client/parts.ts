@@ -8,8 +8,8 @@ import { udpTransport } from '../transport/udp'
 import type { MelsecClientOptions, Settings } from './options'
 
 export function protocolOf(
-  { frame, code, profile, route, timer }: Settings,
-  { asciiXy, asciiZr }: MelsecClientOptions,
+  { frame, code, profile, route, timer, asciiXy }: Settings,
+  { asciiZr }: MelsecClientOptions,
 ): ClientProtocol<Head3e> {
   if (frame === '1E') return protocolOver1e({ profile, code, asciiXy, timer, route })
   return new MelsecProtocol({

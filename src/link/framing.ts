@@ -24,6 +24,11 @@ export interface Scanned<Frame> {
   /** Bytes to take away from the front. */
   readonly used: number
   readonly frame: Frame
+  /**
+   * What some PLCs send behind this frame and others do not, where frames carry no length. It means nothing, no frame
+   * begins like it, and over a stream it may come later than the frame.
+   */
+  readonly mayFollow?: Buffer
 }
 
 /**

@@ -8,7 +8,7 @@
 // needs a fence (fence.ts): each request waits until it is proved that nothing earlier is under way.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
 import type { Fence } from './fence'
-import type { Framing, Job, Outcome, RequestFrame, ResponseFrame, SessionEvent } from './framing'
+import type { Framing, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
 import { SerialNumbers } from './serial-numbers'
 
 /** How the session reads its bytes, and how much may be under way. */
@@ -37,7 +37,7 @@ interface Pending<J> extends Outgoing {
 
 /** What stands at the front of the received bytes. `unasked`: an answer that belongs to no request. */
 type Found<Head> =
-  | { readonly used: number; readonly kind: 'answer'; readonly frame: ResponseFrame<Head> }
+  | ({ readonly kind: 'answer' } & Scanned<ResponseFrame<Head>>)
   | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame<Head> }
   | { readonly used: number; readonly kind: 'unasked' }
 
@@ -53,6 +53,8 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   #output: Outgoing[] = []
   #events: SessionEvent<Head, J>[] = []
   #received: Buffer = EMPTY
+  /** Stream: what may still follow the last answer. */
+  #mayFollow: Buffer = EMPTY
   readonly #serials: SerialNumbers
   /** Set once the connection must go: nothing more is sent or attributed on it. */
   #dropped = false
@@ -204,9 +206,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   #receiveStream(chunk: Buffer): void {
     this.#received = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
     try {
-      while (this.#received.length > 0 && !this.#dropped) {
+      while (!this.#dropped && !this.#passOver() && this.#received.length > 0) {
         const found = this.#find(this.#received)
         if (found === undefined) break
+        this.#mayFollow = (found.kind === 'answer' && found.mayFollow) || EMPTY
         this.#take(found)
         this.#received = found.used >= this.#received.length ? EMPTY : this.#received.subarray(found.used)
       }
@@ -214,6 +217,18 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     } catch (error) {
       this.#fail(error)
     }
+  }
+
+  /** Takes away what may follow the last answer; it may come late. @returns whether it is there in part */
+  #passOver(): boolean {
+    const expected = this.#mayFollow
+    const here = Math.min(expected.length, this.#received.length)
+    if (here === 0) return false
+    const isIt = this.#received.subarray(0, here).equals(expected.subarray(0, here))
+    if (isIt && here < expected.length) return true
+    this.#mayFollow = EMPTY
+    if (isIt) this.#received = this.#received.subarray(here)
+    return false
   }
 
   #refuseEndlessFrame(): void {
@@ -231,7 +246,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       if (found === undefined) {
         throw new ProtocolError('TRUNCATED', 'A datagram ended before its frame did.', length, datagram)
       }
-      if (found.used !== length) {
+      if (!endsWith(found, datagram)) {
         const message = `A datagram holds ${length - found.used} byte(s) behind its frame.`
         throw new ProtocolError('TRAILING', message, found.used, datagram)
       }
@@ -262,7 +277,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     const scanned = this.#framing.response.scan(bytes, (head, soFar) =>
       this.#pending[0]?.job.responseLength(head, soFar),
     )
-    return scanned && { used: scanned.used, kind: 'answer', frame: scanned.frame }
+    return scanned && { kind: 'answer', ...scanned }
   }
 
   #take(found: Found<Head>): void {
@@ -360,4 +375,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   #finish(job: J, outcome: Outcome<Head>, sentAt: number | undefined): void {
     this.#events.push({ kind: 'done', job, outcome, sentAt })
   }
+}
+
+/** Whether the datagram holds what was found and nothing behind it but what may follow. */
+function endsWith(found: Found<unknown>, datagram: Buffer): boolean {
+  const rest = datagram.subarray(found.used)
+  return rest.length === 0 || (found.kind === 'answer' && found.mayFollow?.equals(rest) === true)
 }

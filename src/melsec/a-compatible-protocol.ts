@@ -30,8 +30,6 @@ export interface ACompatibleOptions {
   readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
   /** ASCII code: what stands for an odd number of bits. Default the family's; without one odd numbers are refused. */
   readonly oddBits?: OddBits | undefined
-  /** Bytes of the abnormal code behind end code 5B. Default the family's. */
-  readonly abnormalCodeLength?: 1 | 2 | undefined
 }
 
 type Bag = Readonly<Record<string, unknown>>
@@ -45,7 +43,7 @@ export function aCompatibleProtocol(options: ACompatibleOptions): HeadProtocol<H
   const family: ACompatibleFamily = aCompatibleFamilies[options.family ?? 'iq-f']
   const oddBits = options.oddBits ?? family.oddBits
   return new HeadProtocol<Head1e>({
-    framing: frame1e(code, options.abnormalCodeLength ?? family.abnormalCodeLength),
+    framing: frame1e(code),
     commands: aCompatibleCommands,
     code,
     form: code === 'ascii' && asciiXy === 'octal' ? FORM_XY_OCTAL : 0,
@@ -75,11 +73,11 @@ function checkAscii(command: NamedCommand, message: Bag, asciiXy: unknown, oddBi
       'oddBits',
     )
   }
-  const device = addressesOf(message).find(({ address }) => address.device === 'X' || address.device === 'Y')
+  const device = addressesOf(message).find(({ device: name }) => name === 'X' || name === 'Y')
   if (asciiXy === undefined && device !== undefined) {
     throw new RequestError(
       'BAD_OPTION',
-      `${device.address.device} in ASCII code takes octal or hexadecimal digits, depending on the communication data code "ASCII (X,Y OCT)" or "ASCII (X,Y HEX)". Set the option asciiXy to octal or hexadecimal as in the PLC.`,
+      `${device.device} in ASCII code takes octal or hexadecimal digits, depending on the communication data code "ASCII (X,Y OCT)" or "ASCII (X,Y HEX)". Set the option asciiXy to octal or hexadecimal as in the PLC.`,
       'asciiXy',
     )
   }
@@ -128,10 +126,11 @@ function checkCount(command: ACompatibleCommandName, list: string, devices: read
   throw new RequestError('LIMIT_EXCEEDED', `${devices.length} devices in one request, at most ${max}. Split it.`, list)
 }
 
-function addressesOf(message: Bag): readonly { readonly address: DeviceAddress }[] {
+/** The devices of a request. */
+export function addressesOf(message: Bag): readonly DeviceAddress[] {
   const holders = [message.bits, message.words].flatMap((list): unknown[] => (Array.isArray(list) ? list : []))
   const devices = holders.map((element) => (isBag(element) ? element.device : undefined))
-  return [message.head, ...devices].filter(isAddress).map((address) => ({ address }))
+  return [message.head, ...devices].filter(isAddress)
 }
 
 function isBag(value: unknown): value is Bag {

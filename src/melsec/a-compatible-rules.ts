@@ -58,8 +58,8 @@ export interface ACompatibleFamily {
    * Absent: the manual is silent. Then it has to be set, or odd numbers are refused.
    */
   readonly oddBits?: OddBits
-  /** Bytes of the abnormal code behind end code 5B. */
-  readonly abnormalCodeLength: 1 | 2
+  /** Whether the answers that may end with a byte 00H (frame-1e.ts) do. A client takes both, a simulator sends it. */
+  readonly zeroBehind: boolean
   readonly source: string
 }
 
@@ -69,15 +69,17 @@ export const aCompatibleFamilies = {
   'iq-f': {
     title: 'MELSEC iQ-F',
     windows: fx5Windows,
-    abnormalCodeLength: 1,
+    zeroBehind: false,
     source: 'FX5 communication manual 37.2 and 39; the length of the abnormal code is not printed',
   },
   fx3: {
     title: 'MELSEC FX3',
     windows: fx3Windows,
     oddBits: 'padded',
-    abnormalCodeLength: 2,
-    source: 'background: FX3U-ENET-ADP user’s manual 7.3 (5BH is followed by 10H to 18H and 00H) and 7.5 (dummy 30H)',
+    zeroBehind: true,
+    source:
+      'background: FX3U-ENET-ADP user’s manual 7.3 (5BH is followed by 10H to 18H and 00H), 7.5 (dummy 30H) and 7.6.3 ' +
+      '(type code and 00H; so FX3U-ENET user’s manual 9.4.3)',
   },
 } as const satisfies Readonly<Record<string, ACompatibleFamily>>
 

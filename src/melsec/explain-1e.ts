@@ -4,18 +4,19 @@ import { type DataCode, type Declaration, field, type Named, type Shape } from '
 import { type Direction, Explainer, type FrameExplanation } from '../codec/explanation'
 import { aCompatibleCommands } from './a-compatible'
 import { aCompatibleDevice } from './a-compatible-device'
+import { addressesOf } from './a-compatible-protocol'
 import { aCompatibleFamilies, fromFrame } from './a-compatible-rules'
 import { pcTypeCodes } from './a-compatible-type'
 import { formatDevice } from './address'
 import type { DeviceAddress } from './device'
 import { FORM_XY_OCTAL } from './device-codec'
-import type { Settings } from './explain-body'
+import { noteUncertainDigits, type Settings } from './explain-body'
 import type { ExplainFrameOptions, Known } from './explain-frame'
 import { commandText, describeHead, endCodeText } from './explain-head'
 import { describeValue, devicesOf, splitRow, summaryOf } from './explain-values'
-import { WITH_ABNORMAL_CODE } from './frame-1e'
+import { mayEndWithZero, WITH_ABNORMAL_CODE } from './frame-1e'
 
-const { u16, u8 } = field
+const { fixed, u16, u8 } = field
 
 /** The subheader of an answer is its request's with this bit (FX5 communication manual 37.2); a test holds it against the framing. */
 const ANSWER = 0x80
@@ -72,6 +73,8 @@ function explainRequest(explainer: Explainer, settings: Settings, total: number)
   if (command === undefined) return explainUnknown(explainer, nameOf('request', code), about, total)
   const message = readData(explainer, settings, command.request, command)
   if (command.name === 'writeBits') takeDummy(explainer, code, message)
+  const devices = addressesOf(message).map(({ device }) => device)
+  noteUncertainDigits(explainer, settings, devices)
   const title = [command.title, summaryOf(command, message, settings)].filter((part) => part !== '').join(', ')
   return end(explainer, { ...about, title: `${nameOf('request', code)}: ${title}`, command: command.name }, total)
 }
@@ -138,9 +141,12 @@ function takeDummy(explainer: Explainer, code: DataCode, { values }: Bag): void 
 function explainAbnormalCode(explainer: Explainer): void {
   if (explainer.remaining === 0) return
   explainer.read({ abnormalCode: u8() }, ({ value }) => endCodeText(Number(value), 2).replace(' (refused)', ':'))
-  if (explainer.fault === undefined && explainer.remaining > 0) {
-    explainer.read({ reserved: u8() }, () => 'fixed, of some PLCs')
-  }
+}
+
+/** FX3 modules send it, the FX5 manual prints none. */
+function explainZeroBehind(explainer: Explainer, command: number, endCode: unknown): void {
+  if (explainer.fault !== undefined || explainer.remaining === 0) return
+  if (mayEndWithZero(command, Number(endCode))) explainer.read({ reserved: fixed(0, 1) }, () => 'fixed, of FX3')
 }
 
 function explainResponse(
@@ -169,6 +175,7 @@ function explainResponse(
   const name = nameOf('response', code)
   if (head.endCode !== 0) {
     if (head.endCode === WITH_ABNORMAL_CODE) explainAbnormalCode(explainer)
+    explainZeroBehind(explainer, Number(head.subheader) - ANSWER, head.endCode)
     return explainer.end({ ...about, title: `${name}: refused` }, total)
   }
   if (asked === undefined) {
@@ -178,6 +185,7 @@ function explainResponse(
   }
   const message = readData(explainer, settings, asked.command.response, asked.command, asked.message)
   if (asked.command.name === 'readBits') takeDummy(explainer, code, message)
+  explainZeroBehind(explainer, asked.command.code, head.endCode)
   const summary = summaryOf(asked.command, asked.message, settings)
   const title = [asked.command.title, summary].filter((part) => part !== '').join(', ')
   return end(explainer, { ...about, title: `${name}: ${title}`, command: asked.command.name }, total)

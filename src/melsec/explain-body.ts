@@ -4,6 +4,7 @@ import type { Context, DataCode, Shape } from '../codec/codec'
 import type { Explainer } from '../codec/explanation'
 import { type BodyLayout, commandFields, plainBody } from './body'
 import type { Command } from './command'
+import type { DeviceName } from './device'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf as usedDevices } from './device-uses'
 import { commandText, describeHead, subcommandText } from './explain-head'
@@ -119,7 +120,11 @@ function explainKnown(
   const bits = codecBits(command, form, subcommand) | digitBits(settings)
   const message = readData(explainer, settings, command.request, { form: bits })
   const summary = summaryOf(command, message, settings)
-  noteUncertainDigits(explainer, settings, command, message)
+  noteUncertainDigits(
+    explainer,
+    settings,
+    usedDevices(command, message).map(({ address }) => address.device),
+  )
   if (command.sender === 'plc') explainer.notes.push('The PLC sends this of its own accord; nobody answers it.')
   return {
     command,
@@ -215,10 +220,9 @@ function named({ commands }: Settings, code: unknown): Command | undefined {
   return Object.values(commands).find((command) => command.code === code)
 }
 
-/** Says which setting of the port an address depends on, when nobody has said it. */
-function noteUncertainDigits(explainer: Explainer, settings: Settings, command: Command, message: Bag): void {
+/** Says which setting of the port the addresses of these devices depend on, when nobody has said it. */
+export function noteUncertainDigits(explainer: Explainer, settings: Settings, used: readonly DeviceName[]): void {
   if (settings.code !== 'ascii') return
-  const used = usedDevices(command, message).map(({ address }) => address.device)
   if (settings.asciiXy === undefined && settings.profile.xyRadix === 8 && (used.includes('X') || used.includes('Y'))) {
     explainer.notes.push('X and Y are read as octal digits; if the port is set to "ASCII (X,Y HEX)", say asciiXy.')
   }

@@ -19,7 +19,7 @@ import {
 import { describeHead, endCodeText } from './explain-head'
 import { frame3e } from './frame-3e'
 import { type FrameName, frameFacts, type SlmpFrameName } from './frames'
-import { type Profile, type ProfileId, resolveProfile } from './profile'
+import { asciiXyOf, type Profile, type ProfileId, resolveProfile } from './profile'
 import { ownStation } from './route'
 
 export type { AnnotatedRow, Fault } from '../codec/annotate'
@@ -35,7 +35,7 @@ export interface ExplainFrameOptions {
   readonly profile?: ProfileId | Profile
   /** How X and Y are written; default: the profile's. */
   readonly xyRadix?: 8 | 16
-  /** Digits of X and Y in ASCII code; default: as the profile numbers them. */
+  /** Digits of X and Y in ASCII code, where the port has the setting; default: as the profile numbers them. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** Digits of ZR in ASCII code; default decimal. */
   readonly asciiZr?: 'decimal' | 'hexadecimal'
@@ -49,7 +49,7 @@ export interface ExplainFrameOptions {
 
 /**
  * Explains a frame, also a broken one: then up to where it is wrong. Never throws for what is in the bytes.
- * @throws RequestError BAD_OPTION when there is no such profile.
+ * @throws RequestError BAD_OPTION when there is no such profile, or the profile has no such setting.
  * @example console.log(formatExplanation(explainFrame(Buffer.from('500000ffff03000c00100001040000640000a80200', 'hex'))))
  */
 export function explainFrame(bytes: Buffer, options: ExplainFrameOptions = {}): FrameExplanation {
@@ -57,7 +57,7 @@ export function explainFrame(bytes: Buffer, options: ExplainFrameOptions = {}): 
   const known: Known = {
     profile,
     xyRadix: options.xyRadix ?? profile.xyRadix,
-    asciiXy: options.asciiXy,
+    asciiXy: asciiXyOf(profile, options.asciiXy),
     asciiZr: options.asciiZr,
     commands: options.commands ?? knownCommands,
   }

@@ -2,6 +2,7 @@
 // says it ends.
 import { type DataCode, failAt, putUint, uintAt } from '../codec/codec'
 import type { BodyLength, Framing, RequestFrame, ResponseFrame, Scanned } from '../link/link'
+import { aCompatibleCommands } from './a-compatible'
 
 export interface Head1e {
   /** The command is the subheader. */
@@ -16,11 +17,16 @@ const ANSWER = 0x80
 /** End code that is followed by an abnormal code. */
 export const WITH_ABNORMAL_CODE = 0x5b
 
-/**
- * Framing of 1E in either data code.
- * @param abnormalCodeLength bytes behind end code 5B: the FX5 manual does not say how many (FX3U-ENET-ADP: 2)
- */
-export function frame1e(code: DataCode, abnormalCodeLength: 1 | 2 = 1): Framing<Head1e> {
+/** The answers that FX3 modules end with a byte 00H, and the FX5 manual prints without. */
+export function mayEndWithZero(command: number, endCode: number): boolean {
+  return endCode === 0 ? command === aCompatibleCommands.readPcType.code : endCode === WITH_ABNORMAL_CODE
+}
+
+/** That byte: no answer begins with it, so it is told from the next one also when it comes late. */
+export const zeroBehind: Readonly<Record<DataCode, Buffer>> = { binary: Buffer.of(0), ascii: Buffer.from('00') }
+
+/** Framing of 1E in either data code. */
+export function frame1e(code: DataCode): Framing<Head1e> {
   const ascii = code === 'ascii'
   return {
     name: `1E ${code}`,
@@ -31,7 +37,7 @@ export function frame1e(code: DataCode, abnormalCodeLength: 1 | 2 = 1): Framing<
     },
     response: {
       write: (head, _serial, endCode, body) => writeResponse(ascii, head, endCode, body),
-      scan: (bytes, bodyLength) => scanResponse(ascii, abnormalCodeLength, bytes, bodyLength),
+      scan: (bytes, bodyLength) => scanResponse(ascii, bytes, bodyLength),
     },
     mismatch: (asked, answered) =>
       asked.command === answered.command ? undefined : `it answers command ${answered.command}, asked ${asked.command}`,
@@ -78,7 +84,6 @@ function scanRequest(
 
 function scanResponse(
   ascii: boolean,
-  abnormalCodeLength: number,
   bytes: Buffer,
   bodyLength: BodyLength<Head1e>,
 ): Scanned<ResponseFrame<Head1e>> | undefined {
@@ -89,13 +94,16 @@ function scanResponse(
   if (bytes.length < 2 * unit) return undefined
   const endCode = uintAt(bytes, unit, 1, ascii)
   const head = { command: subheader - ANSWER, pc: 0, timer: 0 }
-  const abnormal = abnormalCodeLength * unit
-  const length = answerLength(endCode, abnormal, () => bodyLength(head, bytes.subarray(2 * unit)))
+  const length = answerLength(endCode, unit, () => bodyLength(head, bytes.subarray(2 * unit)))
   const used = 2 * unit + (length ?? 0)
   if (length === undefined || bytes.length < used) return undefined
-  return { used, frame: { head, serial: undefined, endCode, body: bytes.subarray(2 * unit, used) } }
+  const frame = { head, serial: undefined, endCode, body: bytes.subarray(2 * unit, used) }
+  return mayEndWithZero(head.command, endCode)
+    ? { used, frame, mayFollow: zeroBehind[ascii ? 'ascii' : 'binary'] }
+    : { used, frame }
 }
 
+/** `abnormal`: bytes of the abnormal code. */
 function answerLength(endCode: number, abnormal: number, ofData: () => number | undefined): number | undefined {
   if (endCode === 0) return ofData()
   return endCode === WITH_ABNORMAL_CODE ? abnormal : 0

@@ -214,6 +214,8 @@ export interface Profile {
   readonly cpu: ProfileId
   /** How X and Y are numbered in the engineering tool: `X17` is octal on iQ-F, hexadecimal elsewhere. */
   readonly xyRadix: 8 | 16
+  /** Digits of X and Y in ASCII code: as the port is set ("ASCII (X,Y OCT)", "(X,Y HEX)"), or always hexadecimal. */
+  readonly asciiXy: 'setting' | 'hexadecimal'
   readonly frames: readonly FrameName[]
   /** Default frame. */
   readonly frame: FrameName
@@ -251,7 +253,9 @@ export interface Profile {
   /** What people should know about ports, settings and oddities. */
   readonly notes: readonly string[]
   /** Where the single figures above come from. */
-  readonly sources: Readonly<Record<'xyRadix' | 'frames' | 'forms' | 'extensions' | 'absentDevices', string>>
+  readonly sources: Readonly<
+    Record<'xyRadix' | 'asciiXy' | 'frames' | 'forms' | 'extensions' | 'absentDevices', string>
+  >
 }
 
 /**
@@ -313,6 +317,25 @@ function profileOf(id: string): Profile {
 export function resolveProfile(idOrProfile: ProfileId | Profile, overrides?: ProfileOverrides): Profile {
   const profile = typeof idOrProfile === 'string' ? profileOf(idOrProfile) : idOrProfile
   return overrides === undefined ? profile : withOverrides(profile, overrides)
+}
+
+/**
+ * Digits of X and Y in ASCII code: what is given, where the port has the setting; else always hexadecimal. A setting that
+ * the PLC does not have would address other inputs and outputs without any error.
+ *
+ * @throws RequestError BAD_OPTION when the family has no such setting.
+ */
+export function asciiXyOf<T extends 'octal' | 'hexadecimal' | undefined>(
+  { title, asciiXy }: Profile,
+  given: T,
+): T | 'hexadecimal' {
+  if (asciiXy === 'setting') return given
+  if (given === undefined) return 'hexadecimal'
+  throw new RequestError(
+    'BAD_OPTION',
+    `${title} has no setting for the digits of X and Y in ASCII code: they are always hexadecimal. Leave asciiXy out.`,
+    'asciiXy',
+  )
 }
 
 /** Why this family has not got the command, and what to do instead; undefined when it has it. */

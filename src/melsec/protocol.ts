@@ -27,9 +27,9 @@ export interface MelsecProtocolOptions<Head> {
   readonly profile: Profile
   readonly code: DataCode
   /**
-   * Digits of X and Y in ASCII code, a setting of the PLC's port ("ASCII (X,Y OCT)" or "(X,Y HEX)"). Only families
-   * that number X and Y in octal have it; without it their X and Y are refused in ASCII code, because the wrong
-   * choice would address other inputs and outputs without any error.
+   * Digits of X and Y in ASCII code, a setting of the port of some families ("ASCII (X,Y OCT)" or "(X,Y HEX)"), see
+   * `asciiXyOf`; without it their X and Y are refused in ASCII code, because the wrong choice would address other inputs
+   * and outputs without any error.
    */
   readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
   /**
@@ -74,7 +74,7 @@ function unknownDigits(options: MelsecProtocolOptions<unknown>): UnknownDigits[]
   const { code, profile, asciiXy, asciiZr } = options
   const unknown: UnknownDigits[] = []
   if (code !== 'ascii') return unknown
-  if (profile.xyRadix === 8 && asciiXy === undefined) {
+  if (profile.asciiXy === 'setting' && profile.xyRadix === 8 && asciiXy === undefined) {
     const message =
       `${profile.title} takes octal or hexadecimal digits, depending on its communication data code ` +
       '"ASCII (X,Y OCT)" or "ASCII (X,Y HEX)". Set the option asciiXy to octal or hexadecimal as in the PLC.'

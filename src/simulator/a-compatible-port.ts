@@ -20,7 +20,7 @@ import {
 } from '../melsec/a-compatible-rules'
 import type { CommandName } from '../melsec/commands/commands'
 import type { DeviceAddress } from '../melsec/device'
-import type { Head1e } from '../melsec/frame-1e'
+import { type Head1e, mayEndWithZero, zeroBehind } from '../melsec/frame-1e'
 import type { Profile } from '../melsec/profile'
 import { Refusal } from './refusal'
 
@@ -105,9 +105,17 @@ export class ACompatiblePort {
     return {
       name: HANDLED[name],
       message: this.#translated(name, message),
-      respond: (response) =>
-        this.#protocol.writeResponse(command, message, name === 'readPcType' ? { typeCode: TYPE_CODE } : response),
+      respond: (response) => {
+        const asked = name === 'readPcType' ? { typeCode: TYPE_CODE } : response
+        return this.#complete(command.code, 0, this.#protocol.writeResponse(command, message, asked))
+      },
     }
+  }
+
+  /** With the byte 00H behind it, where this family sends one. */
+  #complete(command: number, endCode: number, body: Buffer): Buffer {
+    const hasZero = this.#family.zeroBehind && mayEndWithZero(command, endCode)
+    return hasZero ? Buffer.concat([body, zeroBehind[this.#code]]) : body
   }
 
   #request(frame: RequestFrame<Head1e>): { readonly command: NamedCommand; readonly message: Bag } {
@@ -190,12 +198,9 @@ export class ACompatiblePort {
   }
 
   /** What stands behind an end code. */
-  errorBody(endCode: number, abnormal: number = ABNORMAL.pc): Buffer {
+  errorBody(command: number, endCode: number, abnormal: number = ABNORMAL.pc): Buffer {
     const writer = writerOf(this.#code)
-    if (endCode === END.cpu) {
-      writer.uint(abnormal, 1)
-      if (this.#family.abnormalCodeLength === 2) writer.uint(0, 1)
-    }
-    return writer.take()
+    if (endCode === END.cpu) writer.uint(abnormal, 1)
+    return this.#complete(command, endCode, writer.take())
   }
 }

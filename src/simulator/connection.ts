@@ -223,7 +223,7 @@ export class Connection {
   #errorInformation(work: Work, { endCode, abnormal }: Answer & { kind: 'refused' }): Buffer {
     const { ports, plc, faults } = this.#shared
     const { frame, command, subcommand } = work.received
-    if (frame.head.frame === '1E') return ports.aCompatible.errorBody(endCode, abnormal)
+    if (frame.head.frame === '1E') return ports.aCompatible.errorBody(frame.head.head.command, endCode, abnormal)
     const { route } = frame.head.head
     const station = routeRefusal(plc.profile, route) === undefined ? route : own(route)
     const body = slmpOf(ports, frame.head.frame).writeErrorInformation({ ...station, command, subcommand })

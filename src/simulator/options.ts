@@ -5,7 +5,14 @@ import type { OddBits } from '../melsec/a-compatible-rules'
 import { type DeviceName, findDevice } from '../melsec/device'
 import { frameFacts } from '../melsec/frames'
 import { modelOf } from '../melsec/model-code'
-import { type FrameName, type Profile, type ProfileId, type ProfileOverrides, resolveProfile } from '../melsec/profile'
+import {
+  asciiXyOf,
+  type FrameName,
+  type Profile,
+  type ProfileId,
+  type ProfileOverrides,
+  resolveProfile,
+} from '../melsec/profile'
 import { passwordProblem } from '../melsec/remote-password'
 import { type Clock, realClock } from '../transport/clock'
 import { drivesOf, type MountedDrive, type SimulatedDrives } from './drives'
@@ -29,7 +36,7 @@ export interface PlcSimulatorOptions {
   readonly code?: DataCode
   /** Frames the port takes, told apart by their subheaders. Default: all of the profile that the code has. */
   readonly frames?: readonly FrameName[]
-  /** ASCII code on a family with octal X and Y: the port's setting. Default `octal` there. */
+  /** ASCII code: the port's setting, where the family has one. Default `octal` on iQ-F. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** ASCII code: digits of ZR. Default `decimal`. */
   readonly asciiZr?: 'decimal' | 'hexadecimal'
@@ -147,10 +154,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     profile,
     code,
     frames: framesOf(profile, code, options.frames),
-    asciiXy: oneOf('asciiXy', options.asciiXy ?? (profile.xyRadix === 8 ? 'octal' : 'hexadecimal'), [
-      'octal',
-      'hexadecimal',
-    ]),
+    asciiXy: digitsOf(profile, options.asciiXy),
     asciiZr: oneOf('asciiZr', options.asciiZr ?? 'decimal', ['decimal', 'hexadecimal']),
     oddBits: oneOf('oddBits', options.oddBits ?? (profile.id === 'fx3' ? 'padded' : 'exact'), ['exact', 'padded']),
     host: options.host ?? '127.0.0.1',
@@ -181,6 +185,11 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     bad(name, `A simulator has no option ${name}: it has ${Object.keys(settings).join(', ')}, profileOverrides.`)
   }
   return settings
+}
+
+function digitsOf(profile: Profile, given: PlcSimulatorOptions['asciiXy']): Settings['asciiXy'] {
+  const asciiXy = given === undefined ? undefined : oneOf('asciiXy', given, ['octal', 'hexadecimal'])
+  return asciiXyOf(profile, asciiXy) ?? (profile.xyRadix === 8 ? 'octal' : 'hexadecimal')
 }
 
 function framesOf(profile: Profile, code: DataCode, frames?: readonly FrameName[]): readonly FrameName[] {

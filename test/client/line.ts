@@ -9,6 +9,7 @@ import {
   type PlcSimulator,
   type PlcSimulatorOptions,
   type ProfileId,
+  profiles,
   type ReadResult,
 } from '../../src/index'
 
@@ -81,7 +82,7 @@ export function clientOptions(
     code,
     profile,
     ...(code === 'ascii' ? { asciiZr: 'decimal' } : {}),
-    ...(code === 'ascii' && profile === 'iq-f' ? { asciiXy: 'octal' } : {}),
+    ...(code === 'ascii' && profiles[profile].cpu === 'iq-f' ? { asciiXy: 'octal' } : {}),
     timeout: AMPLE,
     allowWrites: true,
     allowControl: true,

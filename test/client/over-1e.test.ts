@@ -127,7 +127,6 @@ describe.each(CODES)('FX3, %s', (code) => {
       port,
       profile: 'fx3',
       code,
-      asciiXy: 'octal',
       allowWrites: true,
     })
     try {

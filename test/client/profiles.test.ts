@@ -11,7 +11,7 @@ const READS: readonly CommandName[] = ['readRandom', 'readBlock', 'readWords']
 /** Simulated without doubts about limits: what it refuses is what the profile prints. */
 async function requestsFor(profile: ProfileId, items: readonly string[], code: 'binary' | 'ascii' = 'binary') {
   let sent: CommandName[] = []
-  await withLine(`tcp 3E ${code} ${profile}`, { client: { gap: 0, asciiXy: 'octal' } }, async ({ plc, client }) => {
+  await withLine(`tcp 3E ${code} ${profile}`, { client: { gap: 0 } }, async ({ plc, client }) => {
     await client.connect()
     plc.on('request', ({ command }) => {
       if (command !== undefined) sent = [...sent, command]

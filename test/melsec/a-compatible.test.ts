@@ -219,25 +219,29 @@ describe('ASCII code', () => {
 
 describe('refusals', () => {
   test.each([
-    ['iq-f', 'binary', '815b10', 3],
-    ['iq-f', 'ascii', '815B10', 6],
-    ['fx3', 'binary', '815b1000', 4],
-    ['fx3', 'ascii', '815B1000', 8],
-  ] as const)('%s %s: end code 5B and its abnormal code', (family, code, text, length) => {
-    const protocol = aCompatibleProtocol({ code, family })
-    const asked = protocol.exchange(aCompatibleCommands.readWords, { head: at('D', 0), points: 64 })
-    const bytes = Buffer.from(text, code === 'binary' ? 'hex' : 'latin1')
-    const scanned = protocol.framing.response.scan(bytes, asked.responseLength)
-    if (scanned === undefined) throw new Error('the answer is not whole')
-    expect(scanned.used).toBe(length)
-    expect(() => asked.decode(scanned.frame)).toThrow(
-      expect.objectContaining({
-        endCode: 0x5b,
-        abnormalCode: 0x10,
-        message: expect.stringContaining('abnormal code 10H'),
-      }),
-    )
-  })
+    ['binary', '815b10', 3, '00'],
+    ['binary', '815b1000', 3, '00'],
+    ['ascii', '815B10', 6, '3030'],
+    ['ascii', '815B1000', 6, '3030'],
+  ] as const)(
+    '%s %s: end code 5B and its abnormal code, behind which 00H may follow',
+    (code, text, length, follows) => {
+      const protocol = aCompatibleProtocol({ code })
+      const asked = protocol.exchange(aCompatibleCommands.readWords, { head: at('D', 0), points: 64 })
+      const bytes = Buffer.from(text, code === 'binary' ? 'hex' : 'latin1')
+      const scanned = protocol.framing.response.scan(bytes, asked.responseLength)
+      if (scanned === undefined) throw new Error('the answer is not whole')
+      expect(scanned.used).toBe(length)
+      expect(scanned.mayFollow?.toString('hex')).toBe(follows)
+      expect(() => asked.decode(scanned.frame)).toThrow(
+        expect.objectContaining({
+          endCode: 0x5b,
+          abnormalCode: 0x10,
+          message: expect.stringContaining('abnormal code 10H'),
+        }),
+      )
+    },
+  )
 
   test('an end code is explained', () => {
     const asked = exchange('readWords', { head: at('D', 0), points: 1 })

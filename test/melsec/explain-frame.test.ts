@@ -590,6 +590,27 @@ describe('1E frames', () => {
     )
     expect(explainFrame(Buffer.from('8200', 'hex'), options).fault).toMatchObject({ offset: 0, name: 'subheader' })
   })
+
+  test('the byte 00H of an FX3 behind type code and abnormal code', () => {
+    const request = Buffer.from('15ff0000', 'hex')
+    const answer = explainFrame(Buffer.from('9500f300', 'hex'), { frame: '1E', request })
+    expect(answer).toMatchObject({ rest: 0 })
+    expect(answer.fault).toBeUndefined()
+    expect(lines(answer).slice(-2)).toEqual([expect.stringMatching(/^typeCode: F3H/), 'reserved: fixed, of FX3'])
+    expect(explainFrame(Buffer.from('9500f3', 'hex'), { frame: '1E', request }).fault).toBeUndefined()
+    expect(lines(explained(Buffer.from('815b1000', 'hex'), { frame: '1E' })).at(-1)).toBe('reserved: fixed, of FX3')
+    expect(explainFrame(Buffer.from('9500f301', 'hex'), { frame: '1E', request }).fault).toMatchObject({
+      name: 'reserved',
+    })
+  })
+
+  test('digits of X and Y in ASCII code: a setting of an iQ-F, none of an FX3', () => {
+    const request = Buffer.from('02FF000A592000000010010010')
+    const iqF = explainFrame(request, { frame: '1E', profile: 'iq-f' })
+    expect([iqF.title, iqF.notes]).toEqual([expect.stringContaining('Y10'), [expect.stringContaining('say asciiXy')]])
+    const fx3 = explainFrame(request, { frame: '1E', profile: 'fx3' })
+    expect([fx3.title, fx3.notes]).toEqual([expect.stringContaining('Y20'), []])
+  })
 })
 
 describe('4C frames in format 5', () => {

@@ -16,7 +16,7 @@ import { aCompatibleProtocol } from '../../src/melsec/a-compatible-protocol'
 import { bodies } from '../../src/melsec/body'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { FORM_BITS, subcommandOf } from '../../src/melsec/form'
-import { frame1e, type Head1e } from '../../src/melsec/frame-1e'
+import { frame1e, type Head1e, mayEndWithZero, zeroBehind } from '../../src/melsec/frame-1e'
 import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
 import { frame4cFormat5, type Head4c } from '../../src/melsec/frame-4c'
 import { resolveProfile } from '../../src/melsec/profile'
@@ -286,6 +286,9 @@ function case1e(vector: FrameVector): FrameCase<Head1e> {
     askedHead: { command, pc: 0xff, timer: 0 },
     body: body1e(vector),
     ...(vector.endCode === undefined ? {} : { endCode: vector.endCode }),
+    ...(vector.side === 'response' && mayEndWithZero(command, vector.endCode ?? 0)
+      ? { mayFollow: zeroBehind[vector.code] }
+      : {}),
     bodyLength: (head, soFar) => length1e(vector, head, soFar),
   }
 }

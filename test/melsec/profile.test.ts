@@ -92,7 +92,14 @@ describe('every profile', () => {
       ...Object.values(profile.subcommands),
     ]
     for (const { source } of sourced) expect(source.length).toBeGreaterThan(3)
-    expect(Object.keys(profile.sources).sort()).toEqual(['absentDevices', 'extensions', 'forms', 'frames', 'xyRadix'])
+    expect(Object.keys(profile.sources).sort()).toEqual([
+      'absentDevices',
+      'asciiXy',
+      'extensions',
+      'forms',
+      'frames',
+      'xyRadix',
+    ])
   })
 
   test.each(all)(

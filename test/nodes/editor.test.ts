@@ -345,6 +345,22 @@ describe('in English', () => {
     expect(await property(page, 'plc', 'code')).toBe(before)
   })
 
+  test('the digits of X and Y in ASCII code are asked for where a series has that setting', async () => {
+    await edit(page, 'plc')
+    await page.locator('#node-config-input-code').selectOption('ascii')
+    await page.locator('.red-ui-tray .red-ui-tabs').getByText('Values', { exact: true }).click()
+    const digits = page.locator('#node-config-input-asciiXy')
+    // It is on the first page, and the digits are on another one.
+    const choose = (id: string) => page.locator('#node-config-input-profile').selectOption(id, { force: true })
+    await choose('iq-f')
+    expect(await digits.isVisible()).toBe(true)
+    await digits.selectOption('octal')
+    await choose('fx3')
+    expect([await digits.isVisible(), await digits.inputValue()]).toEqual([false, ''])
+    expect(await page.locator('#node-config-input-asciiZr').isVisible()).toBe(true)
+    await close(page, 'cancel')
+  })
+
   test('the lists of the dialogs are those of the library', async () => {
     await edit(page, 'plc')
     const values = (selector: string) =>

@@ -238,6 +238,20 @@ describe('the port', () => {
   })
 })
 
+test.each([
+  ['iq-f', 'binary', '9500f3', '815b10'],
+  ['iq-f', 'ascii', '9500F3', '815B10'],
+  ['fx3', 'binary', '9500f300', '815b1000'],
+  ['fx3', 'ascii', '9500F300', '815B1000'],
+] as const)('%s %s: the answers behind which an FX3 has 00H', (profile, code, typeName, refused) => {
+  const encoding = code === 'ascii' ? 'latin1' : 'hex'
+  const plc = plcOf({ profile, code, frames: ['1E'] })
+  expect(exchangeBytes(plc, Buffer.from('15FF0000', encoding)).toString(encoding)).toBe(typeName)
+  plc.faults.add({ kind: 'endCode', endCode: 0x5b, times: 1 })
+  const read = code === 'ascii' ? '01FF0000442000000000' + '0100' : '01ff00000000000020440100'
+  expect(exchangeBytes(plc, Buffer.from(read, encoding)).toString(encoding)).toBe(refused)
+})
+
 describe('the Ethernet module, FX5 communication manual 39.1 and 39.2', () => {
   test.each([
     ['counters of 32 bits by 03H', '03ff0000c80000004e430200' + '05000000', 0x83],

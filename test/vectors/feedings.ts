@@ -20,6 +20,8 @@ export interface FrameCase<Head> {
   readonly serial?: number
   /** Of an answer. */
   readonly endCode?: number
+  /** What some PLCs send behind it. */
+  readonly mayFollow?: Buffer
   readonly bodyLength: BodyLength<Head>
   /** Where the serial number stands: an answer gets the one the session asked with. */
   readonly serialAt?: { readonly start: number; readonly end: number }
@@ -84,7 +86,8 @@ export function testFeedings<Head>(id: string, side: Side, make: () => FrameCase
 
   test(`${id}: scanned whole, and out of two in one chunk`, () => {
     const given = make()
-    const scanned = { used: given.bytes.length, frame: frameOf(given) }
+    const { mayFollow } = given
+    const scanned = { used: given.bytes.length, frame: frameOf(given), ...(mayFollow && { mayFollow }) }
     expect(scan(given, given.bytes)).toEqual(scanned)
     expect(scan(given, Buffer.concat([given.bytes, given.bytes]))).toEqual(scanned)
   })

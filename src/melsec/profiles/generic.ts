@@ -12,6 +12,7 @@ export const generic: Profile = {
   title: 'generic SLMP device',
   series: 'any device that speaks SLMP or the MC protocol',
   cpu: 'generic',
+  asciiXy: 'setting',
   frame: '3E',
   form: 'short',
   lacks: [],
@@ -40,6 +41,7 @@ export const generic: Profile = {
   ],
   sources: {
     ...iqR.sources,
+    asciiXy: 'unknown: it may be an iQ-F',
     frames: '3E is on every SLMP device',
     forms: 'every form of the SLMP reference manual',
     absentDevices: 'unknown',
