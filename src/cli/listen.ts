@@ -64,8 +64,10 @@ async function listen(terminal: Terminal, options: ListenOptions): Promise<numbe
     options,
     {},
     async (client) => {
+      // Before it says so: who reads "Ctrl-C ends it" may press it at once.
+      const interrupted = interruption(counted)
       tellStates(terminal, client, options)
-      await interruption(counted)
+      await interrupted
     },
     prepare,
   )

@@ -1,5 +1,7 @@
 /** On-demand on the command line: `melsec-jw listen`, and what `simulate` sends. */
 import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
+import { runProgram } from '../../src/cli/program'
+import type { Terminal } from '../../src/cli/terminal'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/index'
 import { until } from '../client/line'
 import { build, type Running, start, startTyping } from './cli'
@@ -9,6 +11,13 @@ beforeAll(build, 120_000)
 
 const running: Running[] = []
 const plcs: PlcSimulator[] = []
+const silent: Terminal = {
+  out: () => {},
+  error: () => {},
+  interactive: false,
+  ask: async () => '',
+  input: async () => '',
+}
 
 afterEach(async () => {
   await Promise.all(running.splice(0).map((program) => program.interrupt()))
@@ -47,6 +56,21 @@ describe('listen', () => {
     const time = String.raw`\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z`
     expect(out).toMatch(new RegExp(`^${time}  3 words: 1 2 65535\n${time}  3 bytes: 01 02 03\n${time}  0 words:\n$`))
     expect(err).toBe(`Connected to tcp ${address}. Ctrl-C ends it.\n`)
+  })
+
+  test('catches Ctrl-C before it says so', async () => {
+    const { address } = await simulated()
+    const before = process.listenerCount('SIGINT')
+    const caught: number[] = []
+    const code = await runProgram(['listen', '--plc', address, '--profile', 'iq-r'], '1.2.3', {
+      ...silent,
+      error: () => {
+        caught.push(process.listenerCount('SIGINT'))
+        process.emit('SIGINT')
+      },
+    })
+    expect([code, ...caught]).toEqual([0, before + 1])
+    expect(process.listenerCount('SIGINT')).toBe(before)
   })
 
   test('as JSON: a document in each line', async () => {
@@ -115,6 +139,17 @@ describe('listen', () => {
 })
 
 describe('simulate', () => {
+  test('catches Ctrl-C before it says where it listens', async () => {
+    const caught: number[] = []
+    const before = process.listenerCount('SIGINT')
+    const tell = () => {
+      caught.push(process.listenerCount('SIGINT'))
+      process.emit('SIGINT')
+    }
+    const code = await runProgram(['simulate', '--port', '0'], '1.2.3', { ...silent, out: tell, error: tell })
+    expect([code, caught[0]]).toEqual([0, before + 1])
+  })
+
   async function simulate(program: Running): Promise<string> {
     kept(program)
     const [, port] = await program.says(/TCP +127\.0\.0\.1:(\d+)/)
