@@ -35,6 +35,7 @@ function details({
   code,
   effect,
   manual,
+  to,
   context,
   request,
   response,
@@ -46,6 +47,7 @@ function details({
     ['Code', code],
     ['Effect', effect],
     ['Manual', manual],
+    ...(to === undefined ? [] : [['Goes to', 'the connected station only, whatever the route']]),
     ...(context === undefined ? [] : [['Also takes', `${context}: the message of that command, which is sent before`]]),
   ])
   return [

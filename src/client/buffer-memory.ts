@@ -2,7 +2,6 @@
 import { RequestError } from '../errors'
 import { commands } from '../melsec/commands/commands'
 import { byteAddressOf, type ExtendUnit } from '../melsec/extend-unit'
-import { isConnectedStation, type Route } from '../melsec/route'
 import type { CallOptions } from './call'
 import type { Send } from './control'
 
@@ -18,14 +17,12 @@ export interface BufferMemory {
 }
 
 /** The connected module's own. */
-export function memoryOf(send: Send, route: Route): BufferMemory {
+export function memoryOf(send: Send): BufferMemory {
   return {
     read: async (address, points, options) => {
-      checkOwn(route)
       return [...(await send(commands.readMemory, { address, points }, options)).values]
     },
     write: async (address, values, options) => {
-      checkOwn(route)
       await send(commands.writeMemory, { address, values }, options)
     },
   }
@@ -44,16 +41,6 @@ export function moduleOf(send: Send, unit: ExtendUnit): BufferMemory {
       await send(commands.writeExtendUnit, message, options)
     },
   }
-}
-
-/** SLMP reference manual 5.4: other stations cannot be given. */
-function checkOwn(route: Route): void {
-  if (isConnectedStation(route)) return
-  throw new RequestError(
-    'UNSUPPORTED',
-    'Memory reaches the connected station only: make a client without route for it.',
-    'route',
-  )
 }
 
 function wordsOf(bytes: Uint8Array): number[] {

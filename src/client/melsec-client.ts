@@ -143,7 +143,7 @@ export class MelsecClient {
       call: (call) => this.#call(call),
       permit: (effect, title) => this.#permit(effect, title),
     })
-    this.memory = memoryOf(this.#send, settings.route)
+    this.memory = memoryOf(this.#send)
     this.#files = new FileAccess(
       filePartsOf({
         settings,

@@ -1,6 +1,7 @@
 // What a client is made of, from its settings.
 import { frame3e, type Head3e } from '../melsec/frame-3e'
 import { type ClientProtocol, MelsecProtocol } from '../melsec/protocol'
+import { ownStation } from '../melsec/route'
 import { protocolOver1e } from '../melsec/slmp-over-1e'
 import { tcpTransport } from '../transport/tcp'
 import type { OpenTransport } from '../transport/transport'
@@ -15,6 +16,7 @@ export function protocolOf(
   return new MelsecProtocol({
     framing: frame3e(frame, code),
     head: { route, timer },
+    connectedHead: { route: ownStation, timer },
     moduleIo: route.moduleIo,
     profile,
     code,

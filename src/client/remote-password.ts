@@ -5,7 +5,6 @@ import { commands } from '../melsec/commands/commands'
 import type { Head3e } from '../melsec/frame-3e'
 import type { MelsecProtocol } from '../melsec/protocol'
 import { passwordProblem } from '../melsec/remote-password'
-import { ownStation } from '../melsec/route'
 
 type Protocol = Pick<MelsecProtocol<Head3e>, 'profile' | 'exchange'>
 
@@ -29,16 +28,11 @@ export class RemotePassword {
   /** What opens a connection; undefined without a password. */
   unlock(): Exchange<Head3e, unknown> | undefined {
     const password = this.#password
-    return password === undefined ? undefined : toOwnStation(this.#protocol.exchange(commands.unlock, { password }))
+    return password === undefined ? undefined : this.#protocol.exchange(commands.unlock, { password })
   }
 
   lock(): Exchange<Head3e, unknown> | undefined {
     const password = this.#password
-    return password === undefined ? undefined : toOwnStation(this.#protocol.exchange(commands.lock, { password }))
+    return password === undefined ? undefined : this.#protocol.exchange(commands.lock, { password })
   }
-}
-
-/** The password is that of the connected station, whichever station the client speaks to (SLMP manual 5.7). */
-function toOwnStation(exchange: Exchange<Head3e, unknown>): Exchange<Head3e, unknown> {
-  return { ...exchange, head: { ...exchange.head, route: ownStation } }
 }

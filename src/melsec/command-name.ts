@@ -39,6 +39,8 @@ export interface CommandDescription {
   readonly code: string
   readonly effect: Command['effect']
   readonly manual: string
+  /** `connected`: it goes to the connected station, whatever the route. */
+  readonly to?: 'connected'
   /** The command whose message must be given too: the registration of Execute Monitor. */
   readonly context?: string
   readonly request: readonly FieldDescription[]
@@ -49,7 +51,7 @@ export interface CommandDescription {
 
 /** @example describeCommand(commands.readWords).example   // { head: 'D100', points: 1 } */
 export function describeCommand({ name, title, code, effect, manual, ...command }: Command): CommandDescription {
-  const { context, request, response } = command
+  const { context, request, response, to } = command
   const asked: Command | undefined = Object.values<Command>(commands).find((other) => other.name === context)
   const example = exampleMessage(command.unit, request)
   return {
@@ -58,6 +60,7 @@ export function describeCommand({ name, title, code, effect, manual, ...command 
     code: code.toString(16).toUpperCase().padStart(4, '0'),
     effect,
     manual,
+    ...(to === undefined ? {} : { to }),
     ...(context === undefined ? {} : { context }),
     request: rowsOf(request).filter(isShown),
     response: rowsOf(response).filter(isShown),

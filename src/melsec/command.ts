@@ -6,6 +6,8 @@ export interface MelsecDeclaration extends Declaration {
   readonly unit: 'bit' | 'word' | 'none'
   /** Subcommands that are about something else than devices, when it is not 0000 alone: of files, how names are sent. */
   readonly subcommands?: readonly number[]
+  /** Only the station the connection goes to carries it out: it goes there, whatever the route of the client is. */
+  readonly to?: 'connected'
 }
 
 export type Command<D extends MelsecDeclaration = MelsecDeclaration, N extends string = string> = Named<D, N>

@@ -22,6 +22,8 @@ export interface MelsecProtocolOptions<Head> {
   readonly framing: Framing<Head> & { readonly body?: BodyLayout }
   /** Head of every request: route and monitoring timer. */
   readonly head: Head
+  /** Head of what is for the connected station only (`to` of the declaration); default `head`, where that is the route. */
+  readonly connectedHead?: Head
   /** Module I/O number of its route, for commands that do not take every one. */
   readonly moduleIo?: number
   readonly profile: Profile
@@ -99,6 +101,7 @@ export class MelsecProtocol<Head> {
   /** Bytes in front of the data of a request: command, subcommand, fixed values. */
   readonly dataAt: number
   readonly #head: Head
+  readonly #connectedHead: Head
   readonly #moduleIo: number | undefined
   /** Form bits that are settings of the port and not part of the subcommand. */
   readonly #digitBits: number
@@ -112,6 +115,7 @@ export class MelsecProtocol<Head> {
     this.profile = options.profile
     this.code = options.code
     this.#head = options.head
+    this.#connectedHead = options.connectedHead ?? options.head
     this.#moduleIo = options.moduleIo
     this.#digitBits =
       (options.asciiXy === 'octal' ? FORM_XY_OCTAL : 0) | (options.asciiZr === 'hexadecimal' ? FORM_ZR_HEX : 0)
@@ -146,7 +150,7 @@ export class MelsecProtocol<Head> {
       title: command.title,
       effect: command.effect,
       message: sent,
-      head: this.#head,
+      head: command.to === 'connected' ? this.#connectedHead : this.#head,
       body,
       answered: command.answered !== 'no',
       responseLength: () => measure(command.response, { ascii: this.code === 'ascii', form: bits, context }),

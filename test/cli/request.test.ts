@@ -72,6 +72,16 @@ describe('request', () => {
 
   const write = ['writeWords', '{"head":"D0","values":[1,"0xFF"]}'] as const
 
+  test('what is for the connected station goes there, whatever the route', async () => {
+    const route = ['--network', '1', '--station', '3']
+    expect(parsed(await request(['selfTest', '{"data":"AB"}', ...route]))).toEqual({ data: 'AB' })
+    expect(parsed(await request(['clearError', '--yes', ...route]))).toEqual({})
+    expect((await runHere(['memory', 'read', '0', '1', ...at(withModules), ...route])).code).toBe(0)
+    expect((await runHere(['control', 'self-test', ...at(plc), ...route])).code).toBe(0)
+    expect((await request(['readWords', '{"head":"D0","points":1}', ...route])).code).not.toBe(0)
+    expect((await runHere(['commands', 'clearError'])).out).toMatch(/^Goes to +the connected station only/m)
+  })
+
   test('asks before it writes', async () => {
     const refused = await request(write, 'n')
     expect(refused.code).toBe(2)

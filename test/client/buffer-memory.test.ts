@@ -105,11 +105,6 @@ describe('refused before anything is sent', () => {
     expect(plc.statistics.requests).toBe(0)
   })
 
-  test('another station: Memory is the connected module only', async () => {
-    const { client } = await pair({ route: { network: 1, station: 2 } })
-    expect(await rejection(client.memory.read(0, 1))).toMatchObject({ code: 'UNSUPPORTED', field: 'route' })
-  })
-
   test('an iQ-F has neither', async () => {
     const { client } = await pair({ profile: 'iq-f' }, { profile: 'iq-f' })
     for (const call of [client.memory.read(0, 1), client.module('Q62DA', { startIo: 0 }).read(0, 1)]) {

@@ -4,6 +4,7 @@ import { parse } from 'acorn'
 import { settle } from '../../src/client/options'
 import { parseItem } from '../../src/client/plan'
 import * as library from '../../src/index'
+import type { Command } from '../../src/melsec/command'
 import { commands } from '../../src/melsec/commands/commands'
 import { devices } from '../../src/melsec/device'
 import { explainEndCode } from '../../src/melsec/end-code'
@@ -131,6 +132,14 @@ describe('lists', () => {
         .filter((name) => name in commands)
         .sort(),
     ).toEqual(Object.keys(commands).sort())
+  })
+
+  test('commands for the connected station are in docs/client.md', () => {
+    const [, behind = ''] = proseOf('docs/client.md').split('<!-- connected -->')
+    const [sentence = ''] = behind.split('are for the connected station')
+    const connected = Object.values<Command>(commands).filter(({ to }) => to === 'connected')
+    expect(codeSpansOf(sentence)).toEqual(expect.arrayContaining(connected.map(({ name }) => name)))
+    expect(codeSpansOf(sentence)).toHaveLength(connected.length)
   })
 
   test('calls of remote control are in docs/client.md', () => {

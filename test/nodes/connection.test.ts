@@ -405,6 +405,11 @@ describe('the connection test of the editor', () => {
     await connections(0)
   })
 
+  test('measures the round trip to the connected station, whatever the route', async () => {
+    const { body } = await run({ settings: settings({ network: '1', station: '3' }) })
+    expect(body).toMatchObject({ ok: true, unidentified: expect.any(String), roundTrip: { count: 10 } })
+  })
+
   test('uses the running connection when that is what is tested', async () => {
     const taken = await startPlc({ maxConnections: 1 })
     await red.deploy([connectionTo(taken), read()])

@@ -122,6 +122,25 @@ describe('any command', () => {
   })
 })
 
+describe('a connection with a route to another station', () => {
+  const elsewhere = (more: Settings = {}) => connectionTo(plc, { network: '1', station: '3', ...more })
+
+  test('what is for the connected station goes there', async () => {
+    await red.deploy([elsewhere(), command('selfTest', { data: 'AB' })])
+    expect((await send()).payload).toEqual({ data: 'AB' })
+    await red.deploy([
+      elsewhere(),
+      requestNode({ mode: 'memory', access: 'read', addressType: 'num', pointsType: 'num', address: '5', points: '1' }),
+    ])
+    expect((await send()).payload).toEqual([0])
+  })
+
+  test('everything else does not', async () => {
+    await red.deploy([elsewhere(), command('readWords', { head: 'D0', points: 1 }), catchNode()])
+    expect((await caught()).error).toMatchObject({ code: 'END_CODE', cause: { outcome: 'refused' } })
+  })
+})
+
 describe('buffer memory', () => {
   const memory = (more: Settings) => requestNode({ mode: 'memory', addressType: 'num', pointsType: 'num', ...more })
   const q62da = { mode: 'module', model: 'Q62DA', startIo: '0030' }
