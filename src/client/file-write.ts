@@ -1,7 +1,7 @@
 // Making and replacing files, in the manual's order: look, make with its size, open, write, close.
 import { RequestError } from '../errors'
 import { commands } from '../melsec/commands/commands'
-import { isProjectFile } from '../melsec/project-file'
+import { isNeverInPlace, isProjectFile } from '../melsec/project-file'
 import { type FileEntry, listDirectory, statOf } from './file-list'
 import { type FilePlace, inside } from './file-place'
 import type { FileProgress } from './file-read'
@@ -68,6 +68,10 @@ export function contentOf(data: FileData, size: number | undefined): Content {
 export async function writeFile(calls: FileCalls, place: FilePlace, writing: Writing, mode: WriteMode): Promise<void> {
   if (mode !== 'new' && mode !== 'replace' && mode !== 'overwrite') {
     throw new RequestError('BAD_OPTION', `mode is ${shown(mode)}; it is new, replace or overwrite.`, 'mode')
+  }
+  if (mode === 'overwrite' && isNeverInPlace(place.name)) {
+    const message = `${place.text} is a program or FB file: it is never written in its place. Use 'replace'.`
+    throw new RequestError('BAD_OPTION', message, 'mode')
   }
   const old = await statOf(calls, place)
   if (old !== undefined && old.kind !== 'file') {

@@ -8,6 +8,8 @@ export interface MelsecDeclaration extends Declaration {
   readonly subcommands?: readonly number[]
   /** Only the station the connection goes to carries it out: it goes there, whatever the route of the client is. */
   readonly to?: 'connected'
+  /** Only the control CPU of a multiple CPU system carries it out (SLMP reference manual appendix 3). */
+  readonly controlCpuOnly?: true
 }
 
 export type Command<D extends MelsecDeclaration = MelsecDeclaration, N extends string = string> = Named<D, N>

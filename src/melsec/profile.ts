@@ -99,6 +99,8 @@ export interface Reach {
   readonly stations: 'connected' | 'networks'
   /** Module I/O numbers that mean the CPU of the connected station. */
   readonly ownModuleIo: readonly number[]
+  /** Module I/O numbers of CPUs that are not the control CPU: they register no monitor (appendix 3). */
+  readonly nonControlCpus: readonly number[]
   /** The port takes no other module I/O number. */
   readonly ownModuleIoOnly: boolean
   readonly source: string
@@ -193,6 +195,8 @@ export interface FileFacts {
   readonly drives: readonly Drive[]
   /** Module I/O numbers that file commands may name; none: whatever the others may. */
   readonly moduleIo: readonly number[]
+  /** Further ones, of which the manual says both: the PLC decides. */
+  readonly doubtfulModuleIo: readonly number[]
   /** Parameter files, and programs that run, are changed in STOP only. */
   readonly stopToChange: boolean
   readonly refusals: FileRefusals

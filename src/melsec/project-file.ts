@@ -8,6 +8,18 @@ export const PROJECT_EXTENSIONS: readonly string[] = ['DAT', 'QPG', 'PRG', 'PFB'
  * @example isProjectFile('MAIN.QPG') // true
  */
 export function isProjectFile(name: string): boolean {
+  return PROJECT_EXTENSIONS.includes(extensionOf(name))
+}
+
+/** Program and FB files of iQ-R: replaced by Delete, New and Copy only, whatever their size (5.8, Procedure). */
+const NEVER_IN_PLACE: readonly string[] = ['PRG', 'PFB']
+
+/** Whether nothing may be written into a file of this name that is in its place. */
+export function isNeverInPlace(name: string): boolean {
+  return NEVER_IN_PLACE.includes(extensionOf(name))
+}
+
+function extensionOf(name: string): string {
   const period = name.lastIndexOf('.')
-  return period >= 0 && PROJECT_EXTENSIONS.includes(name.slice(period + 1).toUpperCase())
+  return period < 0 ? '' : name.slice(period + 1).toUpperCase()
 }

@@ -9,11 +9,11 @@ import { type CommandName, commands } from './commands/commands'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf } from './device-uses'
 import { explainEndCode } from './end-code'
-import { checkFileCommand } from './file-check'
 import { chooseForm, codecBits, FORM_BITS, findCommand, subcommandOf } from './form'
 import { checkLimits } from './limit'
 import type { DeviceForm, Profile } from './profile'
 import { describeRoute } from './route'
+import { checkTarget } from './target'
 
 type Bag = Readonly<Record<string, unknown>>
 
@@ -144,7 +144,7 @@ export class MelsecProtocol<Head> {
     const body = writer.take()
     // What was sent counts, not an object that the caller may change before the answer comes.
     const sent: Bag = decode(command.request, readerOf(this.code, body.subarray(this.dataAt), bits))
-    checkFileCommand(this.profile, command, sent, this.#moduleIo)
+    checkTarget(this.profile, command, sent, this.#moduleIo)
     const context = this.#contextOf(command, sent, options)
     return {
       title: command.title,

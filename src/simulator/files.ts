@@ -4,7 +4,7 @@
 import type { FileTime } from '../melsec/file-time'
 import { isFileTime } from '../melsec/file-time'
 import type { Profile } from '../melsec/profile'
-import { isProjectFile } from '../melsec/project-file'
+import { isNeverInPlace, isProjectFile } from '../melsec/project-file'
 import type { CpuState } from './cpu'
 import { type DriveEntry, type DrivePath, keyOf, pathOf } from './drive'
 import type { MountedDrive } from './drives'
@@ -164,9 +164,10 @@ export class Files {
 
   write({ owner }: FileOwner, pointer: number, offset: number, data: Uint8Array): void {
     const opened = this.#opened(owner, pointer)
-    const { mounted, number, path, size, mode } = opened
+    const { mounted, number, path, size, mode, text } = opened
     if (mode !== 'write') this.#refuseNow(`file pointer ${pointer} was opened for reading`)
     this.#checkUnprotected(opened)
+    if (isNeverInPlace(text)) refuse(this.#parts.profile.files.refusals.kind, `${text} is never written in its place`)
     this.#checkStopped(opened)
     // 5.8 Write File, offset address: multiples of 4 in program memory.
     if (number === 0 && offset % 4 !== 0) refuse(requestErrors.content, 'Write File: offset is no multiple of 4')

@@ -211,6 +211,18 @@ describe('writing', () => {
     expect(simulator.files.read(4, 'A.CSV')).toEqual(other)
   })
 
+  test.each(['MAIN.PRG', 'FB1.pfb'])('%s is never overwritten, but replaced', async (name) => {
+    const { plc, simulator } = await join('iq-r')
+    simulator.files.write(4, name, bytes(100))
+    const other = Buffer.alloc(100, 1)
+    const { requests } = simulator.statistics
+    const error = await thrown(plc.files.write(`4:${name}`, other, { mode: 'overwrite' }))
+    expect(error).toMatchObject({ code: 'BAD_OPTION', field: 'mode', outcome: 'notSent' })
+    expect(simulator.statistics.requests).toBe(requests)
+    await plc.files.write(`4:${name}`, other, { mode: 'replace' })
+    expect(simulator.files.read(4, name)).toEqual(other)
+  })
+
   test('files of a project are made by way of another name', async () => {
     const { plc, simulator } = await join('q')
     await plc.files.write('4:MAIN.QPG', bytes(2500))

@@ -1,6 +1,6 @@
 /** Monitors through sockets: what is registered, what is read instead, and that no monitor reads another's devices. */
 import { describe, expect, test } from '@jest/globals'
-import { commands, createPlcSimulator, type Monitor, type RequestEvent } from '../../src/index'
+import { commands, createMelsecClient, createPlcSimulator, type Monitor, type RequestEvent } from '../../src/index'
 import { ample, brief, clientOptions, kind, type Line, links, nextState, until, withLine } from './line'
 
 const registering = [
@@ -294,4 +294,38 @@ describe.each(links)('over %s', (text) => {
       expect(await values(monitor)).toEqual([0])
       await until(() => plc.statistics.requests > 0)
     }))
+})
+
+// Appendix 3: "cannot access the non-control CPUs".
+describe('a CPU that is not the control CPU registers nothing', () => {
+  const peer = { host: '127.0.0.1', port: 1 } as const
+  const registration = { words: [{ device: { device: 'D', number: 0 } }], doubleWords: [] } as const
+
+  test.each([
+    ['iq-r', 0x3e1],
+    ['q', 0x3e3],
+    ['generic', 0x3e2],
+  ] as const)('%s, %i', async (profile, moduleIo) => {
+    const client = createMelsecClient({ ...peer, profile, route: { moduleIo } })
+    const monitor = client.monitor(['D0'])
+    expect(monitor.mode).toBe('read')
+    expect(monitor.note).toMatch(/only the control CPU registers a monitor/)
+    const refused = { code: 'UNSUPPORTED', outcome: 'notSent', field: 'moduleIo' }
+    await expect(client.request(commands.entryMonitorDevice, registration)).rejects.toMatchObject(refused)
+    const named = { entryMonitorDevice: { words: [{ device: 'D0' }], doubleWords: [] } }
+    await expect(client.requestByName('executeMonitor', named)).rejects.toMatchObject(refused)
+    await client.close()
+  })
+
+  test('the control CPU does, and so does a remote head', async () => {
+    for (const [profile, moduleIo] of [
+      ['iq-r', 0x3ff],
+      ['iq-r', 0x3e0],
+      ['remote-head', 0x3e1],
+    ] as const) {
+      const client = createMelsecClient({ ...peer, profile, route: { moduleIo } })
+      expect(client.monitor(['D0']).mode).toBe('monitor')
+      await client.close()
+    }
+  })
 })

@@ -287,6 +287,15 @@ describe('refusals', () => {
     expect(plc.files.read(4, 'A.CSV')?.toString()).toBe('abcd')
   })
 
+  test.each(['A.PRG', 'a.pfb'])('a program in its place: %s', async (name) => {
+    const { plc, client } = await pair({ profile: 'iq-r' })
+    plc.files.write(4, name, 'abcd')
+    const { pointer } = await client.request(commands.openFile, { drive: 4, name, mode: WRITE })
+    const data = Buffer.from('efgh')
+    expect(await endCode(client.request(commands.writeFile, { pointer, offset: 0, data }))).toBe(0x41cd)
+    expect(plc.files.read(4, name)?.toString()).toBe('abcd')
+  })
+
   test('Q keeps parameter files and running programs in RUN, and takes multiples of 4 in program memory', async () => {
     const { plc, client } = await pair({ profile: 'q' })
     const program = { drive: 0, name: 'MAIN.QPG' }
@@ -396,10 +405,10 @@ describe('what is not sent', () => {
   })
 
   test.each([
-    ['iq-r', 0x3e0],
     ['iq-r', 0x3d0],
-    ['q', 0x3e1],
+    ['q', 0x3d1],
     ['remote-head', 0x3d0],
+    ['remote-head', 0x3e2],
   ] as const)('to another module: %s, %i', async (profile, moduleIo) => {
     const { plc, client } = await pair({ profile }, { route: { moduleIo } })
     for (const ask of [
@@ -409,6 +418,16 @@ describe('what is not sent', () => {
       await expect(ask()).rejects.toThrow(/cannot go to module I\/O 03[DE]\d.*take 03FF/)
     }
     expect(plc.statistics.requests).toBe(0)
+  })
+
+  // 4.1 does not name them for file commands, appendix 3 lists every file command for them.
+  test.each(['iq-r', 'q', 'l', 'generic'] as const)('not to a CPU of a multiple CPU system: %s', async (profile) => {
+    for (const moduleIo of [0x3e0, 0x3e1, 0x3e2, 0x3e3]) {
+      const { plc, client } = await pair({ profile }, { route: { moduleIo } })
+      const asked = client.request(commands.searchFile, { drive: 4, name: 'A.CSV' })
+      expect(await asked.catch((error: unknown) => error)).toBeInstanceOf(EndCodeError)
+      expect(plc.statistics.requests).toBe(2)
+    }
   })
 
   test.each(['TOOLONGNAME.CSV', 'A.LONG', 'A.B.C', 'DIR\\A.CSV', 'Ω€.CSV', ' A.CSV', 'A.'])('Q: %s', async (name) => {

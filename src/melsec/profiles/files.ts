@@ -56,8 +56,10 @@ const iqRRefusals: FileRefusals = {
     'background: FX5 communication manual 47.1 for the same refusals of the FX5 CPU, error code lists of the CPU modules',
 }
 
-/** 4.1, Request destination module I/O No.: not of multiple CPUs, and not a system that a switch-over changes. */
+/** 4.1, Request destination module I/O No.: not a system that a switch-over changes. */
 const ofCpu = [0x3ff, 0x3d2, 0x3d3]
+/** CPU No. 1 to 4: 4.1 does not name them for file commands, appendix 3 lists the commands for every CPU. */
+const ofMultipleCpus = [0x3e0, 0x3e1, 0x3e2, 0x3e3]
 const ofRemoteHead = [0x3ff, 0x3e0, 0x3e1]
 
 export const iqRFiles: FileFacts = {
@@ -69,13 +71,14 @@ export const iqRFiles: FileFacts = {
     { number: 4, title: 'data memory' },
   ],
   moduleIo: ofCpu,
+  doubtfulModuleIo: ofMultipleCpus,
   stopToChange: false,
   refusals: iqRRefusals,
   source: manual,
 }
 
 /** The remote head RJ72GF15-T2. */
-export const remoteHeadFiles: FileFacts = { ...iqRFiles, moduleIo: ofRemoteHead }
+export const remoteHeadFiles: FileFacts = { ...iqRFiles, moduleIo: ofRemoteHead, doubtfulModuleIo: [] }
 
 const drivesOfQAndL: FileFacts['drives'] = [
   { number: 0, title: 'program memory' },
@@ -90,6 +93,7 @@ export const qFiles: FileFacts = {
   subcommands: [0x0000],
   drives: drivesOfQAndL,
   moduleIo: ofCpu,
+  doubtfulModuleIo: ofMultipleCpus,
   stopToChange: true,
   refusals: cpuRefusals,
   source: manual,
@@ -101,6 +105,7 @@ export const anyFiles: FileFacts = {
   subcommands: [0x0000, 0x0004, 0x0040],
   drives: [0, 1, 2, 3, 4].map((number) => ({ number, title: `drive ${number}` })),
   moduleIo: [...new Set([...ofCpu, ...ofRemoteHead])],
+  doubtfulModuleIo: ofMultipleCpus,
   stopToChange: false,
   refusals: cpuRefusals,
   source: manual,
@@ -110,6 +115,7 @@ export const noFileFacts: FileFacts = {
   subcommands: [],
   drives: [],
   moduleIo: [],
+  doubtfulModuleIo: [],
   stopToChange: false,
   refusals: cpuRefusals,
   source: 'no file commands',

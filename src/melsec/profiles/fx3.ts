@@ -67,6 +67,7 @@ export const fx3: Profile = profileOver1e(
     reach: {
       stations: 'connected',
       ownModuleIo: [0x3ff],
+      nonControlCpus: [],
       ownModuleIoOnly: true,
       source: `${manual}: PC No. FF, the local station`,
     },

@@ -27,7 +27,7 @@ export const generic: Profile = {
   ranges: { points: {}, source: 'unknown: no device number is checked' },
   inFlight: { tcp: 1, udpBuffer: 0, ports: [], source: 'the lowest of all profiles' },
   // Nothing is known of it, so nothing is refused for it.
-  reach: networks('unknown: the PLC says what it cannot reach'),
+  reach: networks('unknown: the PLC says what it cannot reach; 03E1 is also head module No. 2', [0x3e2, 0x3e3]),
   monitoringTimer: {
     default: 0,
     zeroOnly: false,

@@ -177,6 +177,7 @@ export const iqF: Profile = {
   reach: {
     stations: 'connected',
     ownModuleIo: [0x3ff],
+    nonControlCpus: [],
     ownModuleIoOnly: true,
     source:
       '37.1: Ethernet-equipped modules take network 00, station FF, module I/O 03FF and multidrop station 00 only',

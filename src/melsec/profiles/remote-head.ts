@@ -43,6 +43,7 @@ export const remoteHead: Profile = {
   },
   reach: networks(
     '4.1 module I/O numbers: 03FF own station, 03E0 and 03E1 head module No. 1 and No. 2, 03D0 and 03D1 systems',
+    [],
   ),
   remote: {
     clearModes: iqR.remote.clearModes,

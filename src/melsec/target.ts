@@ -1,4 +1,4 @@
-// Targets and drives of file commands against the profile, before anything is sent.
+// Targets of commands, and drives of file commands, against the profile, before anything is sent.
 import { hex } from '../codec/annotate'
 import { RequestError } from '../errors'
 import type { Command } from './command'
@@ -6,28 +6,39 @@ import { driveNumber } from './file-codec'
 import type { Profile } from './profile'
 
 /**
- * Refuses a file command that this family cannot carry out: its module, or its drive.
+ * Refuses what this family cannot carry out: at this module, or on this drive.
  * @param moduleIo of the route, where the frame has one
  * @throws RequestError UNSUPPORTED naming the field and what there is.
  */
-export function checkFileCommand(
+export function checkTarget(
   profile: Profile,
   command: Command,
   message: Readonly<Record<string, unknown>>,
   moduleIo: number | undefined,
 ): void {
+  if (command.controlCpuOnly === true) checkControlCpu(profile, command, moduleIo)
   if (command.subcommands === undefined) return
   checkModuleIo(profile, command, moduleIo)
   checkDrives(profile, command, message)
 }
 
-/** SLMP reference manual 4.1, Request destination module I/O No. */
-function checkModuleIo(profile: Profile, { title }: Command, moduleIo: number | undefined): void {
-  const taken = profile.files.moduleIo
-  if (moduleIo === undefined || taken.length === 0 || taken.includes(moduleIo)) return
+function checkControlCpu({ reach }: Profile, { title }: Command, moduleIo: number | undefined): void {
+  if (moduleIo === undefined || !reach.nonControlCpus.includes(moduleIo)) return
   throw new RequestError(
     'UNSUPPORTED',
-    `${title} cannot go to module I/O ${hex(moduleIo, 4)} on ${profile.title}: file commands take ${taken.map((number) => hex(number, 4)).join(', ')}.`,
+    `${title} cannot go to module I/O ${hex(moduleIo, 4)}: only the control CPU registers a monitor. Read instead; the control CPU itself has 03FF.`,
+    'moduleIo',
+  )
+}
+
+/** SLMP reference manual 4.1, Request destination module I/O No. */
+function checkModuleIo({ files, title: family }: Profile, { title }: Command, moduleIo: number | undefined): void {
+  const taken = files.moduleIo
+  if (moduleIo === undefined || taken.length === 0) return
+  if (taken.includes(moduleIo) || files.doubtfulModuleIo.includes(moduleIo)) return
+  throw new RequestError(
+    'UNSUPPORTED',
+    `${title} cannot go to module I/O ${hex(moduleIo, 4)} on ${family}: file commands take ${taken.map((number) => hex(number, 4)).join(', ')}.`,
     'moduleIo',
   )
 }
