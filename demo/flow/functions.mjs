@@ -2,7 +2,8 @@
 
 /**
  * Function node "State of the connection": everything the page's head shows, gathered from several messages.
- * First output: the head. Second: asks the CPU for its model after each new connection.
+ * First output: the head. Second: asks the CPU for its model after each new connection. Third: whether the page's inputs
+ * and buttons can be operated.
  */
 export function connectionState(msg, context) {
   const begin = { name: 'connecting', reason: '', model: '', roundTrip: null, cpu: '', hasValues: false }
@@ -31,12 +32,22 @@ export function connectionState(msg, context) {
   if (state.name !== 'connected') Object.assign(state, { roundTrip: null, cpu: '' })
   context.set('state', state)
   const identify = state.name === 'connected' && !wasConnected ? { payload: 'identify' } : null
-  return [{ payload: { ...state } }, identify]
+  const enabled = state.name === 'connected'
+  // Once when there is a connection, because inputs show what comes; again and again while there is none: after a deploy
+  // the dashboard enables everything.
+  const told = enabled && context.get('enabled') === true
+  context.set('enabled', enabled)
+  return [{ payload: { ...state } }, identify, told ? null : { enabled }]
 }
 
-/** Function node "Trend": one number for each chart, which keeps every message for its history. */
+/**
+ * Function node "Trend": one point for each chart, which keeps every message for its history. What could not be read is a
+ * point without a value: the line has a gap there.
+ */
 export function trend(msg) {
-  return [{ payload: msg.payload.level }, { payload: msg.payload.temperature }]
+  const { level, temperature } = msg.error === undefined ? msg.payload : {}
+  const point = (value) => ({ payload: { y: Number.isFinite(value) ? value : null } })
+  return [point(level), point(temperature)]
 }
 
 /**
@@ -46,11 +57,15 @@ export function trend(msg) {
 export function setPointsThatChanged(msg, context) {
   const names = ['levelSetPoint', 'temperatureSetPoint', 'mixingTime', 'recipe']
   const shown = { ...context.get('shown') }
-  if (msg.payload.written !== undefined) {
+  if (msg.payload?.written !== undefined) {
     // A write has succeeded or failed: its inputs, and no other that somebody may be typing into, show the PLC's value.
     for (const name of msg.payload.written) delete shown[name]
     context.set('shown', shown)
     return null
+  }
+  if (msg.enabled !== undefined) {
+    // With the value, because the dashboard keeps the last message for pages that are opened later.
+    return names.map((name) => ({ enabled: msg.enabled, ...(name in shown ? { payload: shown[name] } : {}) }))
   }
   const outputs = names.map((name) => (msg.payload[name] === shown[name] ? null : { payload: msg.payload[name] }))
   context.set('shown', Object.fromEntries(names.map((name) => [name, msg.payload[name]])))

@@ -159,6 +159,14 @@ function poll({ canvas, tags, group, uses, filled }) {
       wires: [shown.map(({ id }) => id)],
     },
     ...shown.map((node, row) => ({ ...node, column, row })),
+    catchNode({
+      id: 'not-read',
+      column: 0,
+      row: 5,
+      name: 'not read: a gap',
+      scope: [canvas.name('read')],
+      wires: [['trend']],
+    }),
     ...charts.map((node, index) => ({ ...node, column: column + 170, row: index + 3.5 })),
   ])
 }
@@ -212,7 +220,7 @@ function state({ canvas, group, uses, filled }) {
       column: 240,
       row: 3,
       name: 'State of the connection',
-      wires: [['head'], ['identify-out']],
+      wires: [['head', 'state-out'], ['identify-out'], ['enabled-out']],
     }),
     {
       ...widgets.template(group('head'), { id: 'head', name: 'Head of the page', format: filled('head.vue') }),
@@ -221,15 +229,26 @@ function state({ canvas, group, uses, filled }) {
       row: 2,
     },
     canvas.linkOut({ id: 'identify-out', column: 490, row: 3, name: 'identify', to: ['identify-in'] }),
+    canvas.linkOut({
+      id: 'enabled-out',
+      column: 490,
+      row: 4,
+      name: 'on or off line',
+      to: ['enabled-to-controls'],
+    }),
+    canvas.linkOut({ id: 'state-out', column: 490, row: 1, name: 'state', to: ['state-to-cpu'] }),
   ])
 }
 
 function remote({ canvas, group, uses, filled }) {
   canvas.frame('remote-frame', 'Remote RUN / STOP, after a question', { x: 840, y: 350, width: 680, rows: 1 }, [
+    canvas.linkIn({ id: 'state-to-cpu', column: 0, row: 0, name: 'state', from: ['state-out'], wires: [['cpu']] }),
     {
       ...widgets.template(group('operate'), { id: 'cpu', name: 'CPU RUN / STOP', format: filled('cpu.vue'), order: 4 }),
       ...widgets.size(3, 3),
-      column: 0,
+      // Its last message is the one that says how the connection is.
+      storeOutMessages: false,
+      column: 50,
       row: 0,
       wires: [['remote']],
     },
@@ -303,6 +322,14 @@ function operate({ canvas, tags, group, uses }) {
       name: 'show again',
       from: ['again-out', 'failed-again-out'],
       wires: [['again']],
+    }),
+    canvas.linkIn({
+      id: 'enabled-to-controls',
+      column: 0,
+      row: 0,
+      name: 'on or off line',
+      from: ['enabled-out'],
+      wires: [['setpoints', ...buttons.map(({ id }) => id)]],
     }),
     setPayload('{ "written": [$keys(payload)] }', {
       id: 'again',

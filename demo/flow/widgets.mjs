@@ -51,7 +51,7 @@ export function text(group, { value, ...node }) {
   }
 }
 
-/** A trend of the payload, a number. */
+/** A trend of `y` in the payload, a number, or `null` for a gap. */
 export function chart(group, { ymax, colour, ...node }) {
   return {
     ...node,
@@ -71,8 +71,8 @@ export function chart(group, { ymax, colour, ...node }) {
     xmin: '',
     xmax: '',
     yAxisLabel: '',
-    yAxisProperty: 'payload',
-    yAxisPropertyType: 'msg',
+    yAxisProperty: 'y',
+    yAxisPropertyType: 'property',
     ymin: '0',
     ymax: String(ymax),
     bins: 10,

@@ -37,12 +37,40 @@ afterAll(async () => {
   await plc?.close()
 })
 
+const trends = ['level-trend', 'temperature-trend']
 const head = () => widget(page, 'iqr-head').innerText()
 const isStale = async () => (await page.locator('.plc-stale').count()) > 0
 
-test('a PLC that is there is connected, and its values are live', async () => {
+/** The controls of a page that can be operated. */
+const operable = async (shown: Page): Promise<string[]> => {
+  const controls = [
+    ...['level-setpoint', 'temperature-setpoint', 'mixing-time', 'recipe'].map(
+      (id) => `#nrdb-ui-widget-iqr-${id} input`,
+    ),
+    ...['start', 'stop', 'acknowledge'].map((id) => `#nrdb-ui-widget-iqr-${id} button`),
+    '.plc-cpu-run',
+    '.plc-cpu-stop',
+  ]
+  await shown.locator('.plc-cpu-stop').waitFor()
+  const enabled = controls.map(async (each) => ((await shown.locator(each).first().isEnabled()) ? [each] : []))
+  return (await Promise.all(enabled)).flat()
+}
+
+test('a PLC that is there is connected, its values are live, and its controls can be operated', async () => {
   await eventually('the connection', head, (text) => text.includes('Connected'))
   expect(await isStale()).toBe(false)
+  for (const id of trends) {
+    await eventually(
+      `a line in the ${id}`,
+      () => columnsOf(page, `iqr-${id}`),
+      (drawn) => /#{20,}/.test(drawn),
+    )
+  }
+  await eventually(
+    'enabled controls',
+    () => operable(page),
+    (controls) => controls.length === 9,
+  )
 })
 
 test('a PLC that has gone is offline, with the reason, and its values are grey', async () => {
@@ -53,17 +81,63 @@ test('a PLC that has gone is offline, with the reason, and its values are grey',
   expect(await isStale()).toBe(true)
 })
 
-test('what is pressed meanwhile is not sent, and the page says so', async () => {
-  await widget(page, 'iqr-start').locator('button').click()
-  await page.getByText('Nothing was sent.').waitFor()
+test('nothing can be operated meanwhile, also on a page that is opened then', async () => {
+  await eventually(
+    'disabled controls',
+    () => operable(page),
+    (controls) => controls.length === 0,
+  )
+  const other = await browser.openPage(`${red.dashboard}iqr`)
+  try {
+    await eventually(
+      'disabled controls',
+      () => operable(other.page),
+      (controls) => controls.length === 0,
+    )
+  } finally {
+    await other.close()
+  }
 })
 
 test('a PLC that is back is connected again, without a deploy', async () => {
   plc = await startPlc(port)
   await eventually('the connection', head, (text) => text.includes('Connected'), 60_000)
   await eventually('live values', isStale, (stale) => !stale)
+  await eventually(
+    'enabled controls',
+    () => operable(page),
+    (controls) => controls.length === 9,
+  )
   expect(opened.problems).toEqual([])
 })
+
+test('the trends have a gap where the PLC was away', async () => {
+  for (const id of trends) {
+    await eventually(
+      `a gap in the ${id}`,
+      () => columnsOf(page, `iqr-${id}`),
+      (drawn) => /#+\.{10,}#+/.test(drawn),
+    )
+  }
+})
+
+/** Columns of pixels of a chart with its line in them (`#`) and without (`.`); the plot begins right of its axis. */
+function columnsOf(shown: Page, id: string): Promise<string> {
+  return widget(shown, id)
+    .locator('canvas')
+    .evaluate((element) => {
+      const canvas = element as HTMLCanvasElement
+      const { width, height } = canvas
+      const { data } = canvas.getContext('2d')?.getImageData(0, 0, width, height) ?? { data: [] }
+      const strong = (x: number, y: number) => {
+        const [red = 0, green = 0, blue = 0, alpha = 0] = data.slice(4 * (y * width + x), 4 * (y * width + x) + 4)
+        // Axes and letters are grey.
+        return alpha > 100 && Math.max(red, green, blue) - Math.min(red, green, blue) > 60
+      }
+      const rows = Array.from({ length: height }, (_, y) => y)
+      return Array.from({ length: width }, (_, x) => (rows.some((y) => strong(x, y)) ? '#' : '.')).join('')
+    })
+}
 
 test('the page of a PLC that was never reached shows no values at all', async () => {
   const other = await browser.openPage(`${red.dashboard}fx5`)
