@@ -70,10 +70,10 @@ function finite(text: string): number | string {
   return Number.isFinite(number) ? number : text
 }
 
-/** The type of each item as far as it is needed. Of labels only the PLC knows it, so it is asked when a value may need it. */
+/** The type of each item whose value may need it. Of labels only the PLC knows it, and no label is a LINT. */
 async function typesOf(client: MelsecClient, entries: readonly NamedEntry[], almost: boolean): Promise<string[]> {
-  const types = entries.map(({ item }) => knownType(client, item))
-  const asked = entries.filter((entry, index) => types[index] === undefined && almost && mayBeAlmost(entry.value))
+  const types = entries.map(({ item, value }) => (mayNeedType(value, almost) ? knownType(client, item) : ''))
+  const asked = almost ? entries.filter((_, index) => types[index] === undefined) : []
   const results = asked.length === 0 ? [] : await client.read(asked.map(({ item }) => item))
   const found = new Map(asked.map((entry, index) => [entry, results[index]]))
   return entries.map((entry, index) => {
@@ -92,7 +92,7 @@ function knownType(client: MelsecClient, item: NamedEntry['item']): string | und
   }
 }
 
-function mayBeAlmost(value: WritableValue): boolean {
-  if (Array.isArray(value)) return value.some(mayBeAlmost)
-  return typeof value === 'string' || value === 0 || value === 1
+function mayNeedType(value: WritableValue, almost: boolean): boolean {
+  if (Array.isArray(value)) return value.some((element) => mayNeedType(element, almost))
+  return typeof value === 'string' || (almost && (value === 0 || value === 1))
 }

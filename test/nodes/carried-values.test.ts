@@ -8,7 +8,16 @@ import type { PlcSimulator } from '../../src/index'
 import { type HeadlessBrowser, launchBrowser } from '../support/browser'
 import { type FlowNode, type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { readText } from '../support/syntax'
-import { type CaughtError, catchNode, connectionTo, ondemandNode, readNode, startPlc, writeNode } from './flow'
+import {
+  type CaughtError,
+  catchNode,
+  connectionTo,
+  ondemandNode,
+  readNode,
+  requestNode,
+  startPlc,
+  writeNode,
+} from './flow'
 
 const EXACT = 9007199254740991n
 const BEYOND = -9007199254740993n
@@ -129,6 +138,13 @@ describe('LINT and ULINT', () => {
     ended()
     expect(JSON.parse(JSON.stringify(error.cause))).toMatchObject({ differences: [{ written: 5, read: `${BEYOND}` }] })
   })
+})
+
+test('commands of the manuals have no number of more than 32 bits', async () => {
+  const message = '{"words":[{"device":"D100"}],"doubleWords":[{"device":"D100"}]}'
+  await red.deploy([connectionTo(plc), requestNode({ command: 'readRandom', message, messageType: 'json' })])
+  const { payload } = await sent('request', {})
+  expect(JSON.parse(JSON.stringify(payload))).toEqual({ words: [0xffff], doubleWords: [0xffffffff] })
 })
 
 test('other values are carried as they are', () => {
