@@ -8,7 +8,7 @@ import { type ItemRow, itemOf, nameOf, rowsIn, textIn, wordIn } from './stored'
 import { evaluate } from './typed-input'
 import { readBackFailure, writeFailure } from './write-result'
 import { entriesByName, entryByTopic, type NamedEntry, typedNumber, writable } from './write-values'
-import { fittingEntries } from './written-value'
+import { fittingEntries, withHint } from './written-value'
 
 const migrations: readonly Migration[] = []
 
@@ -29,7 +29,7 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
     const entries = await fittingEntries(client, given, convert)
     const results = await client.write(entries, { readModifyWrite, allOrNothing: true })
     const failure = writeFailure(entries, results, texts)
-    if (failure !== undefined) throw failure
+    if (failure !== undefined) throw convert ? failure : withHint(failure, client, entries, texts)
     if (readBack) await check(client, entries, tools)
     return { messages: [message] }
   }

@@ -1,6 +1,8 @@
 // What a write node makes of values that are almost those of the type: text for numbers, 0 and 1 for bits.
 import { type MelsecClient, type PlcValue, parseType, valueTypes } from '../src/index'
-import type { NamedEntry, WritableValue } from './write-values'
+import { NodeFailure } from './failure'
+import type { Texts } from './texts'
+import { isSame, type NamedEntry, type WritableValue } from './write-values'
 
 /** Numbers as JSON writes them: no spaces, plus sign, leading zeros or hexadecimal digits. */
 const WHOLE = /^-?(?:0|[1-9][0-9]*)$/
@@ -29,6 +31,23 @@ export async function fittingEntries(
 ): Promise<NamedEntry[]> {
   const types = await typesOf(client, entries, almost)
   return entries.map((entry, index) => ({ ...entry, value: fitting(entry.value, types[index] ?? '', almost) }))
+}
+
+/** The failure of values that were not written as they are, with what to tick when that would make one of them fit. */
+export function withHint(
+  failure: NodeFailure,
+  client: MelsecClient,
+  entries: readonly NamedEntry[],
+  texts: Texts,
+): NodeFailure {
+  if (failure.code !== 'BAD_VALUE') return failure
+  const helps = entries.some(({ item, value }) => {
+    const type = knownType(client, item) ?? ''
+    return !isSame(value, fitting(value, type, true), type)
+  })
+  if (!helps) return failure
+  const sentence = failure.cause.message.replace(/\.?$/, '.')
+  return new NodeFailure({ ...failure.cause, message: `${sentence} ${texts('error.almost')}` })
 }
 
 /** @param type of the item, e.g. `LINT` or `STRING(20)`; `''` when it is not known */

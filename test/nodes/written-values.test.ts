@@ -58,10 +58,19 @@ describe('values that are almost right', () => {
     async (payload) => {
       await red.deploy([writable(), writeNode(), catchNode()])
       await red.status('write', { fill: 'green' })
-      expect(await refused({ payload })).toMatchObject({ code: 'BAD_VALUE' })
+      const { code, message, cause } = await refused({ payload })
+      expect(code).toBe('BAD_VALUE')
+      expect(message).toMatch(/[^.]\. .*tick "Accept numbers as text/)
+      expect(cause).toMatchObject({ items: [{ written: false }] })
       expect([plc.read('D100'), plc.read('M300')]).toEqual([7, false])
     },
   )
+
+  test.each([{ D100: 'five' }, { D100: 70000 }, { M300: 2 }])('no tick is named for %j', async (payload) => {
+    await red.deploy([writable(), writeNode(), catchNode()])
+    await red.status('write', { fill: 'green' })
+    expect((await refused({ payload })).message).not.toContain('tick')
+  })
 
   test('are written with it, and read back as what they are', async () => {
     await red.deploy([writable(), writeNode({ convert: true, readBack: true })])
