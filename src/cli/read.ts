@@ -1,4 +1,4 @@
-import { createMelsecClient, type MelsecClient, type ReadResult, RequestError } from '../index'
+import { createMelsecClient, type ItemExplanation, type MelsecClient, type ReadResult, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import {
   addConnectionOptions,
@@ -45,14 +45,22 @@ async function read(terminal: Terminal, items: readonly string[], options: ReadO
     terminal.out(planText(plan.describe(), options.json === true))
     return exitCodes.ok.code
   }
-  const { results, types } = await withClient(terminal, options, {}, async (client) => ({
+  const { results, explanations } = await withClient(terminal, options, {}, async (client) => ({
     results: await client.read(items),
-    types: items.map((item) => typeOf(client, item)),
+    explanations: items.map((item) => explanationOf(client, item)),
   }))
   if (options.json === true) terminal.out(json({ results: results.map(resultData) }))
   else {
     const rows = results.flatMap((result, i) =>
-      result.ok ? [[result.item, valueText(result.value, result.type ?? types[i]), ...tornText(result)]] : [],
+      result.ok
+        ? [
+            [
+              spelt(result.item, explanations[i]),
+              valueText(result.value, result.type ?? explanations[i]?.type),
+              ...tornText(result),
+            ],
+          ]
+        : [],
     )
     if (rows.length > 0) terminal.out(table(rows))
   }
@@ -60,10 +68,15 @@ async function read(terminal: Terminal, items: readonly string[], options: ReadO
   return exitOfResults(results)
 }
 
-/** Type of an item that could be read; how many digits a number is shown with depends on it. */
-function typeOf(client: MelsecClient, item: string): string | undefined {
+/** A count behind a comma in our spelling: `D100,10` is `D100[10]`. Everything else as it was typed. */
+function spelt(item: string, explanation: ItemExplanation | undefined): string {
+  return item.includes(',') && explanation !== undefined && !('label' in explanation) ? explanation.text : item
+}
+
+/** What an item is that could be read; how many digits a number is shown with depends on its type. */
+function explanationOf(client: MelsecClient, item: string): ItemExplanation | undefined {
   try {
-    return client.explain(item).type
+    return client.explain(item)
   } catch (error) {
     // Its result says what is wrong with it.
     if (error instanceof RequestError) return undefined

@@ -1,15 +1,15 @@
 // Typed items of one client: what becomes a plan, a monitor, or a call to the labels.
 import { RequestError } from '../errors'
 import type { Exchange } from '../link/link'
-import { namedAsFx5 } from '../melsec/a-compatible-rules'
+import { longCounterHint, namedAsFx5 } from '../melsec/a-compatible-rules'
 import { commands } from '../melsec/commands/commands'
 import type { Head3e } from '../melsec/frame-3e'
 import type { ClientProtocol } from '../melsec/protocol'
 import type { CallOptions } from './call'
 import type { ReadPlan, WriteEntry, WritePlan } from './client-types'
-import { checkBooleans, listOf, shown } from './given'
+import { checkBooleans, isItem, listOf, shown } from './given'
 import { explainLabel, type ItemExplanation } from './label-explain'
-import { type AnyItem, hasPrefix, isLabel, labelInstead, parsedLabel } from './label-in-items'
+import { type AnyItem, hasPrefix, isLabel, itemText, labelInstead, parsedLabel } from './label-in-items'
 import { randomMessage } from './label-request'
 import { type LabelLender, MixedItems, mixedMonitor, mixedReadPlan } from './mixed-read'
 import { type MixedEntry, MixedWrite } from './mixed-write'
@@ -70,7 +70,7 @@ export class ItemAccess {
 
   plan(items: readonly Item[]): ReadPlan {
     const { protocol, call } = this.#parts
-    const mixed = new MixedItems(listOf(items, 'items').map((item) => this.#parse(item)))
+    const mixed = new MixedItems(listOf(items, 'items').map((item, index) => this.#listed(item, `items[${index}]`)))
     const plan = planRead(mixed.devices, protocol, this.#planOptions)
     if (mixed.labels.length > 0) return mixedReadPlan(mixed, plan, this.#lender, call)
     return {
@@ -92,7 +92,10 @@ export class ItemAccess {
     checkBooleans(options, ['readModifyWrite', 'allOrNothing'])
     // An entry that is none is an item that is none.
     const parsed = listOf(entries, 'entries').map(
-      (entry): MixedEntry => ({ item: this.#parse(entry?.item), value: entry?.value }),
+      (entry, index): MixedEntry => ({
+        item: this.#listed(entry?.item, `entries[${index}].item`),
+        value: entry?.value,
+      }),
     )
     const all = { ...options, xyRadix: settings.xyRadix }
     const devices: readonly PlannedEntry[] = parsed.filter(isPlanned)
@@ -112,7 +115,7 @@ export class ItemAccess {
 
   monitor(items: readonly Item[]): Monitor {
     const { settings, protocol, registration, call } = this.#parts
-    const mixed = new MixedItems(listOf(items, 'items').map((item) => this.#parse(item)))
+    const mixed = new MixedItems(listOf(items, 'items').map((item, index) => this.#listed(item, `items[${index}]`)))
     const monitor = new ItemMonitor(mixed.devices, protocol, {
       ...this.#planOptions,
       call,
@@ -138,8 +141,15 @@ export class ItemAccess {
     return { gap, xyRadix }
   }
 
+  /** An item of a list. What is none has no text to be called by, so its place names it. */
+  #listed(item: Item, place: string): AnyItem {
+    return isItem(item) ? this.#parse(item) : { text: place, error: noItem(item, place) }
+  }
+
   #parse(item: Item): AnyItem {
     if (hasPrefix(item)) return this.#askable(parsedLabel(item))
+    const longCounter = this.#longCounter(item)
+    if (longCounter !== undefined) return longCounter
     const { xyRadix, xyUnknown, format, profile } = this.#parts.settings
     try {
       const parsed = this.#renamed(parseItem(item, { xyRadix, format }))
@@ -164,6 +174,15 @@ export class ItemAccess {
     }
   }
 
+  /** At once, because the ways over its parts would lead to a counter of 16 bits first. */
+  #longCounter(item: Item): AnyItem | undefined {
+    if (this.#parts.settings.profile.id !== 'fx3') return undefined
+    const text = itemText(item)
+    const hint = longCounterHint(text)
+    if (hint === undefined) return undefined
+    return { text, error: new RequestError('BAD_ADDRESS', `${JSON.stringify(text)}: ${hint}`, text) }
+  }
+
   #renamed(item: ParsedItem): ParsedItem {
     return this.#parts.settings.profile.id === 'fx3' ? { ...item, address: namedAsFx5(item.address) } : item
   }
@@ -178,6 +197,13 @@ export class ItemAccess {
     if (!this.#monitored) return undefined
     return 'Another monitor of this client is registered. Over UDP a registration may arrive twice or late, and take the place of this one without anybody noticing. Over TCP they take turns.'
   }
+}
+
+function noItem(given: unknown, place: string): RequestError {
+  const isObject = typeof given === 'object' && given !== null && 'address' in given
+  const what = isObject ? `${place}.address is ${shown(given.address)}` : `${place} is ${shown(given)}`
+  const message = `${what}: an item is a text such as D100:REAL, or an object with such an address.`
+  return new RequestError('BAD_ADDRESS', message, isObject ? 'address' : place)
 }
 
 function isPlanned(entry: MixedEntry): entry is PlannedEntry {

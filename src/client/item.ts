@@ -6,6 +6,7 @@
  * | `D100` `M0` `LCN5`                | INT of a word device, BOOL of a bit device, DINT of a double-word one |
  * | `D100:REAL` `D100:STRING(20)`     | the type as in IEC 61131-3 and GX Works                              |
  * | `D100:REAL[10]` `M0[16]`          | an array of so many values                                           |
+ * | `D100,10` `X0,16`                 | the same, as other drivers write it; in our spelling `D100[10]`       |
  * | `M0..M15` `D0..D9:DINT`           | the same by its last device: 16 bits, 5 values of two words each      |
  * | `D100.F` `D100.0[20]`             | bits of words; an array goes on in the next word                     |
  * | `K4M0` `K8M0:REAL` `K4M0[3]`      | 4 bits per digit: INT up to K4, DINT from K5, REAL and TIME with K8   |
@@ -18,7 +19,7 @@ import {
   type ParsedDevice,
   parseDevice,
 } from '../melsec/address'
-import { deviceInfo, devices, LAST_NUMBER } from '../melsec/device'
+import { deviceInfo, LAST_NUMBER } from '../melsec/device'
 import { show } from '../value/fault'
 import {
   checkFormat,
@@ -31,6 +32,7 @@ import {
   valueTypes,
   wordsOf,
 } from '../value/value'
+import { otherNotation } from './item-notation'
 
 /** An item with options of its own; what is left out is the client's. */
 export interface ItemOptions extends Omit<ValueFormat, 'trimSpaces'> {
@@ -77,16 +79,39 @@ const MOST_VALUES = 1 << 20
  */
 export function parseItem(item: Item, options: ItemParseOptions): ParsedItem {
   const given = checkedItem(item)
+  try {
+    return parsedItem(item, given, options)
+  } catch (error) {
+    if (!(error instanceof RequestError)) throw error
+    // When the text alone is an item, what is wrong is beside it.
+    const isOther = !isAlone(given.address, options)
+    const meant = isOther ? otherNotation(given.address, (text) => isAlone(text, options)) : undefined
+    if (meant === undefined) throw error
+    throw new RequestError(error.code, `${JSON.stringify(given.address.trim())}: ${meant}`, given.address)
+  }
+}
+
+function isAlone(address: string, options: ItemParseOptions): boolean {
+  try {
+    parsedItem(address, { address }, options)
+    return true
+  } catch (error) {
+    if (error instanceof RequestError) return false
+    throw error
+  }
+}
+
+function parsedItem(item: Item, given: ItemOptions, options: ItemParseOptions): ParsedItem {
   const fail: Fail = (code, message) => {
     throw new RequestError(code, `${JSON.stringify(given.address)}: ${message}`, given.address)
   }
   const parts = splitText(given.address, fail)
-  const device = deviceOf(parts.first, options)
+  const device = parseDevice(parts.first, options)
   const typeText = onlyOne('type', parts.type, given.type, fail)
   const type = typeText === undefined ? defaultType(device) : typeOf(typeText, fail)
   const problem = typeProblem(device, type)
   if (problem !== undefined) fail('BAD_TYPE', problem)
-  const ranged = parts.last === undefined ? undefined : rangeCount(device, deviceOf(parts.last, options), type, fail)
+  const ranged = parts.last === undefined ? undefined : rangeCount(device, parseDevice(parts.last, options), type, fail)
   const count = onlyOne('count', onlyOne('count', ranged, parts.count, fail), given.count, fail)
   if (count !== undefined) checkCount(count, device, fail)
   checkEnd(count ?? 1, device, type, fail)
@@ -165,11 +190,15 @@ function splitText(text: string, fail: Fail): Parts {
   if (LABEL_PREFIX.test(text)) fail('UNSUPPORTED', 'a label is no device: a client of a PLC with labels takes it.')
   const [, device = '', type] = /^([^:]*)(?::(.*))?$/s.exec(text) ?? []
   const [, counted = '', digits] = /^(.*?)(?:\[\s*(\d+)\s*\])?$/s.exec(type ?? device) ?? []
+  const [, before, points] = type === undefined && digits === undefined ? (COUNTED.exec(device) ?? []) : []
+  if (before !== undefined) return { first: before, count: Number(points) }
   const area = type === undefined ? counted : device
   if (area.includes('[')) {
     fail('BAD_ADDRESS', 'the number of values stands in brackets at the end, behind the type, e.g. D100:REAL[10].')
   }
-  if (area.includes(',')) fail('BAD_ADDRESS', commaHint(area))
+  if (area.includes(',')) {
+    fail('BAD_ADDRESS', 'behind a comma stands how many values, a whole number, e.g. D100,10, which is D100[10].')
+  }
   const [first = '', last, more] = area.split('..')
   if (more !== undefined) fail('BAD_ADDRESS', 'a range has two ends, e.g. M0..M15.')
   if (last?.trim() === '') fail('BAD_ADDRESS', 'the end of the range is missing, e.g. M0..M15.')
@@ -181,47 +210,8 @@ function splitText(text: string, fail: Fail): Parts {
   }
 }
 
-function commaHint(text: string): string {
-  const [device = '', count = ''] = text.split(',')
-  const spelt = /^\s*\d+\s*$/.test(count) ? speltType(device, Number(count)) : undefined
-  const suggestion = spelt ?? `${device.trim()}[${/^\s*\d+\s*$/.test(count) ? Number(count) : 10}]`
-  return `a count stands in brackets: ${suggestion}.`
-}
-
-function deviceOf(text: string, options: AddressOptions): ParsedDevice {
-  try {
-    return parseDevice(text, options)
-  } catch (error) {
-    const spelt = speltType(text)
-    if (!(error instanceof RequestError) || spelt === undefined) throw error
-    const shown = JSON.stringify(text.trim())
-    throw new RequestError('BAD_ADDRESS', `${shown}: the type stands behind the address: ${spelt}.`, text)
-  }
-}
-
-/** `DREAL100`, `DSTR200,20`: the type within the address, as other drivers have it. `undefined`: it is no such thing. */
-function speltType(text: string, count?: number): string | undefined {
-  const [, letters = '', number] = /^([A-Z]+)([0-9][0-9A-F.]*)$/.exec(text.trim().toUpperCase()) ?? []
-  for (const { name } of devices) {
-    const type = letters.startsWith(name) ? knownType(letters.slice(name.length)) : undefined
-    if (type === undefined) continue
-    const isText = valueTypes[type].kind === 'text'
-    const brackets = count === undefined ? '' : `[${count}]`
-    return `${name}${number}:${type}${isText ? `(${count ?? 20})` : brackets}`
-  }
-  return undefined
-}
-
-function knownType(text: string): TypeName | undefined {
-  for (const candidate of [text, `${text}(1)`]) {
-    try {
-      return parseType(candidate).name
-    } catch (error) {
-      if (!(error instanceof RequestError)) throw error
-    }
-  }
-  return undefined
-}
+/** A count behind a comma, as other drivers have it. Behind the bit of a word it may be another bit. */
+const COUNTED = /^([^.,]+),\s*(0|[1-9]\d*)\s*$/
 
 function typeOf(text: string, fail: Fail): ValueType {
   try {

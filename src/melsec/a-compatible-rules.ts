@@ -158,6 +158,20 @@ export function namedAsFx5(address: DeviceAddress): DeviceAddress {
   return named === undefined ? address : { ...rest, ...named }
 }
 
+/**
+ * What to write for a counter of 32 bits by its number in GX Works2, `C220`; `undefined` for anything else.
+ * @example longCounterHint('C220')   // C200 to C255 are counters of 32 bits: write LCN20 (current value) or LCS20 (contact).
+ */
+export function longCounterHint(text: string): string | undefined {
+  const [, digits] = /^\s*C[NC]?0*(\d+)(?!\d)/i.exec(text) ?? []
+  if (digits === undefined) return undefined
+  const named = (device: 'CN' | 'CS') => fromFrame(renamed, { device, number: Number(digits) })
+  const [value, contact] = [named('CN'), named('CS')]
+  if (value === undefined || contact === undefined) return undefined
+  const names = `${value.device}${value.number} (current value) or ${contact.device}${contact.number} (contact)`
+  return `C200 to C255 are counters of 32 bits: write ${names}.`
+}
+
 /** Why a command cannot be asked for `points` from `address` on; `undefined` when it can. */
 export function aCompatibleProblem(
   windows: readonly ACompatibleWindow[],

@@ -17,7 +17,7 @@
  * Case, leading zeros and spaces around do not matter; `/` and the yen sign (the same key) stand for `\` as well.
  */
 import { RequestError, type RequestErrorCode } from '../errors'
-import { hintFor } from './address-hint'
+import { hintFor, otherSpelling } from './address-hint'
 import {
   CPU_UNIT,
   type DeviceAddress,
@@ -56,6 +56,34 @@ export interface ParsedDevice {
  * @example parseDevice('D100.F', { xyRadix: 16 }) // { address: { device: 'D', number: 100 }, bit: 15 }
  */
 export function parseDevice(text: string, options: AddressOptions): ParsedDevice {
+  try {
+    return parsedDevice(text, options)
+  } catch (error) {
+    if (!(error instanceof RequestError) || typeof text !== 'string') throw error
+    const meant = meantBy(text, options)
+    if (meant === undefined) throw error
+    throw new RequestError(error.code, `${JSON.stringify(text.trim())}: ${meant}`)
+  }
+}
+
+/** The address in our spelling, when it has another one. */
+function meantBy(text: string, options: AddressOptions): string | undefined {
+  const { because, readings = [] } = otherSpelling(text.trim().toUpperCase()) ?? {}
+  const meant = readings.filter((reading) => isDevice(reading, options))
+  return meant.length === 0 ? undefined : `${because}: write ${meant.join(' or ')}.`
+}
+
+function isDevice(text: string, options: AddressOptions): boolean {
+  try {
+    parsedDevice(text, options)
+    return true
+  } catch (error) {
+    if (error instanceof RequestError) return false
+    throw error
+  }
+}
+
+function parsedDevice(text: string, options: AddressOptions): ParsedDevice {
   const clean = cleaned(text)
   const fail: Fail = (message, code = 'BAD_ADDRESS') => {
     throw new RequestError(code, `${JSON.stringify(shortened(text))}: ${message}${hintFor(clean)}`)

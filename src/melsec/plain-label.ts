@@ -8,7 +8,7 @@
  */
 import { RequestError } from '../errors'
 import { type AddressOptions, parseDevice } from './address'
-import { hintFor } from './address-hint'
+import { hintFor, otherSpelling } from './address-hint'
 import { devices } from './device'
 import { parseLabel } from './label'
 
@@ -63,6 +63,8 @@ export function isPlainLabel(text: string, options: AddressOptions): boolean {
 }
 
 function looksLikeAddress(name: string, options: AddressOptions): boolean {
+  // `U3.G100`, `XFFFH`: whatever this PLC has of it, it is not sent as a name.
+  if (otherSpelling(name.replace(/\[[^\]]*\]$/, '')) !== undefined) return true
   const [, first = '', index, rest] = /^([^.[]*)(\[[^\]]*\])?(?:\.(.*))?$/s.exec(name) ?? []
   if (first.includes('_') || FOREIGN_LETTER.test(first)) return isAddress(first, options)
   if (DEVICE_AND_NUMBER.test(first) || isAddress(first, options)) return true

@@ -20,6 +20,8 @@ interface TypeRow {
   readonly max?: number | bigint
   /** Data type as the label editor of GX Works3 shows it, where it has the type. Accepted by `parseType`. */
   readonly gxWorks?: string
+  /** The same in Japanese, simplified and traditional Chinese. Accepted, too. */
+  readonly translated?: readonly string[]
   /** Other spellings accepted: only those whose width and sign nobody can take for another. */
   readonly aliases?: readonly string[]
 }
@@ -29,16 +31,32 @@ interface TypeRow {
  * binary coded decimals of 4 and 8 digits. TIME is signed milliseconds, T#-24d20h31m23s648ms to T#24d20h31m23s647ms.
  */
 export const valueTypes = {
-  BOOL: { kind: 'bit', words: 0, gxWorks: 'Bit' },
-  INT: { kind: 'integer', words: 1, min: -0x8000, max: 0x7fff, gxWorks: 'Word [Signed]', aliases: ['INT16'] },
+  BOOL: { kind: 'bit', words: 0, gxWorks: 'Bit', translated: ['ビット', '位', '位元'] },
+  INT: {
+    kind: 'integer',
+    words: 1,
+    min: -0x8000,
+    max: 0x7fff,
+    gxWorks: 'Word [Signed]',
+    translated: ['ワード[符号付き]', '字[有符号]', '字[有符號]'],
+    aliases: ['INT16'],
+  },
   UINT: { kind: 'integer', words: 1, min: 0, max: 0xffff, aliases: ['UINT16'] },
-  WORD: { kind: 'integer', words: 1, min: 0, max: 0xffff, gxWorks: 'Word [Unsigned]/Bit String [16-bit]' },
+  WORD: {
+    kind: 'integer',
+    words: 1,
+    min: 0,
+    max: 0xffff,
+    gxWorks: 'Word [Unsigned]/Bit String [16-bit]',
+    translated: ['ワード[符号なし]/ビット列[16ビット]', '字[无符号]/位列[16位]', '字[無符號]/位元列[16位元]'],
+  },
   DINT: {
     kind: 'integer',
     words: 2,
     min: -0x80000000,
     max: 0x7fffffff,
     gxWorks: 'Double Word [Signed]',
+    translated: ['ダブルワード[符号付き]', '双字[有符号]', '雙字[有符號]'],
     aliases: ['INT32'],
   },
   UDINT: { kind: 'integer', words: 2, min: 0, max: 0xffffffff, aliases: ['UINT32'] },
@@ -48,16 +66,47 @@ export const valueTypes = {
     min: 0,
     max: 0xffffffff,
     gxWorks: 'Double Word [Unsigned]/Bit String [32-bit]',
+    translated: ['ダブルワード[符号なし]/ビット列[32ビット]', '双字[无符号]/位列[32位]', '雙字[無符號]/位元列[32位元]'],
   },
   LINT: { kind: 'long', words: 4, min: -(2n ** 63n), max: 2n ** 63n - 1n, aliases: ['INT64'] },
   ULINT: { kind: 'long', words: 4, min: 0n, max: 2n ** 64n - 1n, aliases: ['UINT64'] },
-  REAL: { kind: 'real', words: 2, gxWorks: 'FLOAT [Single Precision]', aliases: ['FLOAT', 'FLOAT32'] },
-  LREAL: { kind: 'real', words: 4, gxWorks: 'FLOAT [Double Precision]', aliases: ['FLOAT64'] },
+  REAL: {
+    kind: 'real',
+    words: 2,
+    gxWorks: 'FLOAT [Single Precision]',
+    translated: ['単精度実数', '单精度实数', '單精度實數'],
+    aliases: ['FLOAT', 'FLOAT32'],
+  },
+  LREAL: {
+    kind: 'real',
+    words: 4,
+    gxWorks: 'FLOAT [Double Precision]',
+    translated: ['倍精度実数', '双精度实数', '雙精度實數'],
+    aliases: ['FLOAT64'],
+  },
   BCD16: { kind: 'bcd', words: 1, min: 0, max: 9999 },
   BCD32: { kind: 'bcd', words: 2, min: 0, max: 99999999 },
-  TIME: { kind: 'integer', words: 2, min: -0x80000000, max: 0x7fffffff, gxWorks: 'Time' },
-  STRING: { kind: 'text', words: 0, gxWorks: 'String', aliases: ['STR'] },
-  WSTRING: { kind: 'text', words: 0, gxWorks: 'String [Unicode]' },
+  TIME: {
+    kind: 'integer',
+    words: 2,
+    min: -0x80000000,
+    max: 0x7fffffff,
+    gxWorks: 'Time',
+    translated: ['時間', '时间'],
+  },
+  STRING: {
+    kind: 'text',
+    words: 0,
+    gxWorks: 'String',
+    translated: ['文字列', '字符串', '字串'],
+    aliases: ['STR'],
+  },
+  WSTRING: {
+    kind: 'text',
+    words: 0,
+    gxWorks: 'String [Unicode]',
+    translated: ['文字列[Unicode]', '字符串[Unicode]', '字串[Unicode]'],
+  },
 } as const satisfies Record<string, TypeRow>
 
 /** Name of a type. */
@@ -146,11 +195,19 @@ function isTextName(name: TypeName): name is TextName {
 
 const spellings: ReadonlyMap<string, TypeName> = new Map(
   typeNames.flatMap((name) => {
-    const { gxWorks, aliases = [] } = rowOf(name)
-    const texts = [name, ...aliases, ...(gxWorks === undefined ? [] : [gxWorks])]
-    return texts.map((text): [string, TypeName] => [text.toUpperCase(), name])
+    const { gxWorks, translated = [], aliases = [] } = rowOf(name)
+    const labels = [...(gxWorks === undefined ? [] : [gxWorks]), ...translated]
+    // `Word [Unsigned]/Bit String [16-bit]`: the whole, or one of the two.
+    const texts = [name, ...aliases, ...labels, ...labels.flatMap((label) => label.split('/'))]
+    return texts.map((text): [string, TypeName] => [spellingOf(text), name])
   }),
 )
+
+/** A text as it is looked up: full-width characters and spaces around brackets, as input methods leave them, say nothing. */
+function spellingOf(text: string): string {
+  const plain = text.normalize('NFKC').trim().replace(/\s+/g, ' ')
+  return plain.replace(/ ?([[\]/]) ?/g, '$1').toUpperCase()
+}
 
 function badType(message: string): RequestError {
   return new RequestError('BAD_TYPE', message)
@@ -162,15 +219,15 @@ function listOfTypes(): string {
 
 /**
  * The type a text names. Case and spaces around do not matter; `FLOAT`, `STR(n)`, `INT16`… and GX Works' label texts
- * (`Word [Signed]`) are accepted. STRING and WSTRING need a length from 1 to 16383.
+ * (`Word [Signed]`, `ワード[符号付き]`, `字[有符号]`) are accepted. STRING and WSTRING need a length from 1 to 16383.
  *
  * @throws RequestError BAD_TYPE, naming the types there are
  * @example parseType('string(20)') // { name: 'STRING', length: 20 }
  */
 export function parseType(text: string): ValueType {
   if (typeof text !== 'string') throw badType(`a type is a text such as REAL, not ${typeof text}`)
-  const [, word = '', digits] = /^([^()]*)(?:\(\s*(\d+)\s*\))?$/.exec(text.trim()) ?? []
-  const spelling = word.trim().replace(/\s+/g, ' ').toUpperCase()
+  const [, word = '', digits] = /^([^()]*)(?:\(\s*(\d+)\s*\))?$/.exec(text.normalize('NFKC').trim()) ?? []
+  const spelling = spellingOf(word)
   const name = spellings.get(spelling)
   if (name === undefined) throw unknownType(text, spelling)
   if (digits === undefined && !isTextName(name)) return { name }

@@ -123,7 +123,7 @@ describe('an object', () => {
 
 describe('what is no item says what to write', () => {
   test.each([
-    ['D100,10', 'BAD_ADDRESS', 'D100[10]'],
+    ['D100.3,10', 'BAD_ADDRESS', 'D100.3[10]'],
     ['DREAL100', 'BAD_ADDRESS', 'D100:REAL'],
     ['DFLOAT6000', 'BAD_ADDRESS', 'D6000:REAL'],
     ['DSTR6200,20', 'BAD_ADDRESS', 'D6200:STRING(20)'],
@@ -134,7 +134,7 @@ describe('what is no item says what to write', () => {
     ['M0..M5..M9', 'BAD_ADDRESS', 'two ends'],
     ['M9..M0', 'BAD_ADDRESS', 'lower number first'],
     ['M0..L15', 'BAD_ADDRESS', 'same device'],
-    ['M0..15', 'BAD_ADDRESS', '15'],
+    ['M0..15', 'BAD_ADDRESS', 'M0..M15'],
     ['D0.1..D5', 'BAD_ADDRESS', 'same device'],
     ['D0..D8:DINT', 'BAD_ADDRESS', '9 points'],
     ['D0[0]', 'OUT_OF_RANGE', '1 to'],
