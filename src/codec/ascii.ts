@@ -3,9 +3,14 @@ import { failAt, Input, Output, refuseElement } from './cursor'
 
 export const DIGITS = Buffer.from('0123456789ABCDEF', 'latin1')
 
-/** Value of a hexadecimal digit by its character code, -1 for any other character. Lower case is not a digit here. */
+const LOWER_CASE_DIGITS = Buffer.from('0123456789abcdef', 'latin1')
+
+/**
+ * Value of a hexadecimal digit by its character code, -1 for any other character. The manuals have upper case only, and
+ * only that is written; peers exist that send lower case, and what it means is certain.
+ */
 export const VALUE = new Int8Array(256).fill(-1)
-for (let i = 0; i < 16; i++) VALUE[DIGITS[i] as number] = i
+for (const digits of [DIGITS, LOWER_CASE_DIGITS]) for (const [i, digit] of digits.entries()) VALUE[digit] = i
 
 /** ASCII code: numbers as upper-case hexadecimal digits, high digit first; bits one character each. */
 export class AsciiWriter extends Output implements Writer {

@@ -29,3 +29,14 @@ export function uintAt(buffer: Buffer, at: number, width: Width, ascii: boolean)
   }
   return value
 }
+
+/** Value of a hexadecimal digit of ASCII code by its character code, -1 for any other character. */
+export function digitValue(character: number): number {
+  return VALUE[character] ?? -1
+}
+
+/** Whether two characters of ASCII code are the same digit, whichever case. */
+export function isSameDigit(one: number | undefined, other: number | undefined): boolean {
+  const value = digitValue(one ?? 0)
+  return value >= 0 && value === digitValue(other ?? 0)
+}

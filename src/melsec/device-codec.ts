@@ -10,7 +10,7 @@
  * | extended | modification 2, (short or long), extension            | `00`/`0@` 2, extension 4, extension modification 3 or  |
  * |          | modification 2, extension 2, direct memory 1          | 4, code 2 or 4, number 6 or 10, modification 3 or 4    |
  */
-import type { Reader, ValueCodec, Writer } from '../codec/cursor'
+import { digitValue, type Reader, type ValueCodec, type Writer } from '../codec/codec'
 import { RequestError } from '../errors'
 import { type DeviceAddress, type DeviceInfo, deviceInfo, devices, LAST_NUMBER, type Radix } from './device'
 import { type AccessProblem, addressProblem, checkAddress } from './device-access'
@@ -224,16 +224,11 @@ export function readDigits(reader: Reader, radix: Radix, count: number): number 
   let value = 0
   for (; at < count; at++) {
     const digit = digitValue(text.charCodeAt(at))
-    if (digit >= radix) reader.fail('BAD_DIGIT', `device number ${JSON.stringify(text)} is not of radix ${radix}`)
+    if (digit < 0 || digit >= radix)
+      reader.fail('BAD_DIGIT', `device number ${JSON.stringify(text)} is not of radix ${radix}`)
     value = value * radix + digit
   }
   return value
-}
-
-/** Value of an upper-case digit; 16 for what is none. */
-function digitValue(character: number): number {
-  if (character >= 0x30 && character <= 0x39) return character - 0x30
-  return character >= 0x41 && character <= 0x46 ? character - 0x37 : 16
 }
 
 function unsupported(message: string): AccessProblem {

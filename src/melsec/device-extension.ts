@@ -145,7 +145,7 @@ function asciiExtension(reader: Reader, text: string): DeviceExtension | undefin
   if (text === '0000') return undefined
   const digits = text.slice(1)
   if (!/^[JU]/.test(text)) reader.fail('BAD_FIELD', `extension ${show(text)} is not J, U or 0000`)
-  if (!/^[0-9A-F]{3}$/.test(digits)) reader.fail('BAD_DIGIT', `extension ${show(text)} needs three hexadecimal digits`)
+  if (!/^[0-9A-F]{3}$/i.test(digits)) reader.fail('BAD_DIGIT', `extension ${show(text)} needs three hexadecimal digits`)
   const value = Number.parseInt(digits, 16)
   return text.startsWith('J') ? { kind: 'link', network: value } : unitExtension(value)
 }

@@ -45,7 +45,7 @@ export function explain1e(bytes: Buffer, known: Known, options: ExplainFrameOpti
 
 /** Subheaders are 00 to 1F and 80 to 9F: in ASCII code their first byte is a digit, which is none of them. */
 function codeOf(bytes: Buffer): DataCode {
-  return bytes.length > 0 && /^[0-9A-F]/.test(bytes.toString('latin1', 0, 1)) ? 'ascii' : 'binary'
+  return bytes.length > 0 && /^[0-9A-F]/i.test(bytes.toString('latin1', 0, 1)) ? 'ascii' : 'binary'
 }
 
 function firstByte(bytes: Buffer, code: DataCode): number | undefined {

@@ -126,10 +126,9 @@ function closingRows(
   if (sum.length === 0) return { rows, end }
   const expected = hex(sumOf(plain), 2)
   const found = sum.toString('latin1')
-  const text =
-    found === expected ? `"${found}" (right)` : `"${found.replace(/[^ -~]/g, '.')}" (should be "${expected}")`
-  const fault =
-    found === expected ? {} : { fault: { offset: end, message: 'the sum check code does not match', name: 'sum' } }
+  const isRight = found.toUpperCase() === expected
+  const text = isRight ? `"${found}" (right)` : `"${found.replace(/[^ -~]/g, '.')}" (should be "${expected}")`
+  const fault = isRight ? {} : { fault: { offset: end, message: 'the sum check code does not match', name: 'sum' } }
   return { rows: [...rows, ...rowOf(end, sum, 'sum', text)], end: end + sum.length, ...fault }
 }
 

@@ -1,6 +1,6 @@
 // A captured frame in words, field by field: for the command line, for traces, for people with a protocol analyser.
 import { MASK } from '../codec/annotate'
-import { type DataCode, field, measure, type Shape } from '../codec/codec'
+import { type DataCode, field, isSameDigit, measure, type Shape } from '../codec/codec'
 import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../codec/explanation'
 import { bodies } from './body'
 import type { Command } from './command'
@@ -100,7 +100,7 @@ function detect(bytes: Buffer, { frame, code, direction }: ExplainFrameOptions):
   if (bytes.length === 0) return 'there are no bytes'
   const found = SUBHEADERS.filter((one) => {
     const size = Math.min(one.bytes.length, bytes.length)
-    return one.bytes.subarray(0, size).equals(bytes.subarray(0, size))
+    return beginsWith(bytes, one.code, one.bytes.subarray(0, size))
   })
   const fitting = found.filter(
     (one) =>
@@ -114,6 +114,12 @@ function detect(bytes: Buffer, { frame, code, direction }: ExplainFrameOptions):
   const [other] = found
   if (other !== undefined && found.length === 1) return `this is the subheader of a ${nameOf(other)}`
   return `no 3E, 4E or station extension subheader, which is ${SUBHEADERS.map(shown).join(', ')}`
+}
+
+function beginsWith(bytes: Buffer, code: DataCode, subheader: Buffer): boolean {
+  const start = bytes.subarray(0, subheader.length)
+  if (code === 'binary' || start.length < subheader.length) return start.equals(subheader)
+  return subheader.every((digit, i) => isSameDigit(digit, start[i]))
 }
 
 function nameOf({ frame, code, direction }: Pick<Subheader, 'frame' | 'code' | 'direction'>): string {
@@ -264,7 +270,7 @@ function requestOf(
 ): KnownRequest | undefined {
   if (bytes === undefined) return undefined
   const found = SUBHEADERS.filter(({ direction }) => direction === 'request').find((one) =>
-    one.bytes.equals(bytes.subarray(0, one.bytes.length)),
+    beginsWith(bytes, one.code, one.bytes),
   )
   const scanned = found && scanned3e(found, bytes)
   const request = found && scanned && readRequestBody(scanned.body, { ...settings, body: bodies[found.frame] })

@@ -1,6 +1,6 @@
 // The 3E, 4E and station extension frames (SLMP reference manual 4.1, 4.2): one layout. 4E adds a serial number in its
 // subheader, the station extension frame also a fixed 00H and the extension station number behind the multidrop number.
-import { type DataCode, failAt, putUint, uintAt } from '../codec/codec'
+import { type DataCode, failAt, isSameDigit, putUint, uintAt } from '../codec/codec'
 import { RequestError } from '../errors'
 import type { Framing, RequestFrame, ResponseFrame, Scanned } from '../link/link'
 
@@ -184,7 +184,8 @@ function checkSubheader(layout: Layout, subheader: number, bytes: Buffer): void 
   const serialEnd = layout.ascii ? 8 : 4
   for (let i = 0; i < expected.length && i < bytes.length; i++) {
     if (layout.serial && i >= expected.length / 3 && i < serialEnd) continue
-    if (bytes[i] !== expected[i]) failAt('BAD_FRAME', i, bytes, 'not the subheader of this frame and data code')
+    if (bytes[i] !== expected[i] && !(layout.ascii && isSameDigit(bytes[i], expected[i])))
+      failAt('BAD_FRAME', i, bytes, 'not the subheader of this frame and data code')
   }
 }
 
