@@ -355,7 +355,6 @@ export class MelsecClient {
   ): Promise<ResponseOf<C>> {
     const { deadline, send } = this.#call(options)
     checkRequest(command, message, options.form)
-    this.#permit(command.effect, command.title)
     const exchange = this.#protocol.exchange(command, message, options)
     if (command.name !== commands.entryMonitorDevice.name) return send(exchange)
     // The place of a monitor's registration is taken, in its turn: no monitor may read these devices for its own.

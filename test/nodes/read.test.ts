@@ -107,6 +107,14 @@ describe('addresses from the message', () => {
     expect((await ask({ payload })).payload).toEqual(values)
   })
 
+  test('other addresses in the next message are read, and not those of the message before', async () => {
+    await red.deploy([connectionTo(plc), dynamic()])
+    expect((await ask({ payload: { tank: 'D100:REAL' } })).payload).toEqual({ tank: 71.5 })
+    expect((await ask({ payload: { tank: 'D120:DINT' } })).payload).toEqual({ tank: -7 })
+    expect((await ask({ payload: { tank: 'M10' } })).payload).toEqual({ tank: true })
+    expect((await ask({ payload: { tank: 'D100:REAL' } })).payload).toEqual({ tank: 71.5 })
+  })
+
   test.each([
     ['nothing', undefined],
     ['a number', 100],

@@ -1,6 +1,6 @@
-import { createSocket, type Socket } from 'node:dgram'
+import { createSocket, Socket } from 'node:dgram'
 import { once } from 'node:events'
-import { afterEach, describe, expect, test } from '@jest/globals'
+import { afterEach, describe, expect, jest, test } from '@jest/globals'
 import { ConnectionError, RequestError } from '../../src/errors'
 import { type UdpOptions, udpTransport } from '../../src/transport/udp'
 import { openHandles, record, settle } from './recorder'
@@ -54,6 +54,24 @@ async function closedPort(): Promise<number> {
 }
 
 describe('opening', () => {
+  test('what a foreign sender sends between binding and connecting does not arrive', async () => {
+    const plc = await station()
+    echo(plc.socket)
+    const foreign = await station()
+    const connect = Socket.prototype.connect
+    const told = jest.spyOn(Socket.prototype, 'connect').mockImplementation(function (this: Socket, ...args) {
+      // On loopback it is in the queue of the socket as soon as it is sent.
+      foreign.socket.send('foreign', this.address().port, host, () => connect.apply(this, args))
+    })
+    cleanups.push(() => told.mockRestore())
+    const client = open({ port: plc.port })
+    await client.opened
+    client.transport.send(Buffer.from('own'))
+    await client.bytes(3)
+    expect(told).toHaveBeenCalledTimes(1)
+    expect(client.chunks.map(String)).toEqual(['own'])
+  })
+
   test('opens, sends, receives one call per datagram and tells both addresses', async () => {
     const { socket, port } = await station()
     echo(socket)
