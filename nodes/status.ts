@@ -35,6 +35,7 @@ const FAILURE_TEXTS = {
   CLOSED: 'closed',
   ABORTED: 'closed',
   QUEUE_FULL: 'queueFull',
+  OVERLOADED: 'overloaded',
   NOT_VERIFIED: 'notVerified',
   UNFINISHED: 'unfinished',
   NOT_CONFIGURED: 'badSettings',

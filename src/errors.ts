@@ -41,7 +41,7 @@ export type ConnectionErrorCode =
   | 'PORT_UNAVAILABLE' // the local port or serial port is taken
   | 'SILENT' // connected, but nothing answers
   | 'OFFLINE' // failing fast while the connection is being restored
-export type ClosedErrorCode = 'CLOSED' | 'ABORTED' | 'QUEUE_FULL'
+export type ClosedErrorCode = 'CLOSED' | 'ABORTED' | 'QUEUE_FULL' | 'OVERLOADED'
 export type VerifyErrorCode = 'NOT_VERIFIED'
 export type UnfinishedErrorCode = 'UNFINISHED'
 export type PlcErrorCode =

@@ -1,5 +1,5 @@
 import { ClosedError, type PlcError, RequestError } from '../errors'
-import type { BodyLength, Exchange, Job, ResponseFrame } from '../link/link'
+import type { BodyLength, Exchange, Job, Priority, ResponseFrame } from '../link/link'
 import { abortedBeforeSending, asPlcError } from './failure'
 
 /** What every call may say. */
@@ -16,6 +16,8 @@ export interface BoundOptions extends CallOptions {
    * pointer, may mean something else on the next.
    */
   readonly onlyOn?: number
+  /** Who asks: requests of one caller wait for one another, and callers take turns. */
+  readonly caller?: unknown
 }
 
 /** A call may wait for a day, as the option `timeout` of the client. */
@@ -50,6 +52,13 @@ export interface Settle<Head> {
   readonly fail: (error: PlcError) => void
 }
 
+interface CallFacts {
+  readonly sends?: boolean
+  readonly onlyOn?: number | undefined
+  readonly allowance?: number
+  readonly caller?: unknown
+}
+
 /** One request of the caller: the job the session carries. Settled exactly once. */
 export class Call<Head> implements Job<Head> {
   #signal: AbortSignal | undefined
@@ -58,17 +67,31 @@ export class Call<Head> implements Job<Head> {
   readonly #settle: Settle<Head>
   /** Set for what opens a locked PLC: until then it returns no self test. */
   needsNoProof = false
+  /** `false`: the call only waits for the connection. */
+  readonly sends: boolean
+  /** Connection it must be sent on, if on none but that. */
+  readonly onlyOn: number | undefined
+  /** ms it was given in all. */
+  readonly allowance?: number
+  readonly caller: unknown
 
   constructor(
     readonly exchange: Exchange<Head, unknown>,
     readonly deadline: number,
     settle: Settle<Head>,
-    /** `false`: the call only waits for the connection. */
-    readonly sends = true,
-    /** Connection it must be sent on, if on none but that. */
-    readonly onlyOn?: number,
+    { sends = true, onlyOn, allowance, caller }: CallFacts = {},
   ) {
     this.#settle = settle
+    this.sends = sends
+    this.onlyOn = onlyOn
+    if (allowance !== undefined) this.allowance = allowance
+    this.caller = caller
+  }
+
+  /** What changes the PLC does not wait behind what only asks. */
+  get priority(): Priority {
+    const { effect } = this.exchange
+    return effect === 'read' || effect === 'diagnose' ? 'read' : 'control'
   }
 
   get head(): Head {

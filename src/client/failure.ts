@@ -69,6 +69,17 @@ export function closedByPeer(peer: string, receivedAnything: boolean): Connectio
   return new ConnectionError('ENTRY_BUSY', message)
 }
 
+/** More is asked than the PLC answers: sent now, it would expire in flight, and perhaps take the connection with it. */
+export function overloaded(title: string, waiting: number, roundTrip: number | undefined): ClosedError {
+  const others = waiting > 1 ? `${waiting} requests wait` : 'its time was used up by waiting'
+  const each =
+    roundTrip === undefined ? '' : `, and the PLC needs about ${Math.max(1, Math.round(roundTrip))} ms for each`
+  const message =
+    `${title} was not sent, because its answer would come after its deadline: ${others}${each}. ` +
+    'Ask less often, read more by one request, or raise the timeout.'
+  return new ClosedError('OVERLOADED', message)
+}
+
 export function lostInFlight(title: string, reason: PlcError): ConnectionError {
   const message = `The connection was lost while ${title} was in flight; whether the PLC carried it out is not known. ${reason.message}`
   return new ConnectionError('DISCONNECTED', message, 'unknown', reason)

@@ -1,6 +1,14 @@
 // One attempt to connect and the connection it becomes: a transport, a session, and the first request that proves it.
 import { type ConnectionError, EndCodeError, endsConnection, type PlcError, ProtocolError } from '../errors'
-import { type Fence, type ResponseFrame, type SerialNumbers, Session, type SessionEvent } from '../link/link'
+import {
+  type Fence,
+  type Outcome,
+  type ResponseFrame,
+  type RoundTrips,
+  type SerialNumbers,
+  Session,
+  type SessionEvent,
+} from '../link/link'
 import type { Transport } from '../transport/transport'
 import type { Call } from './call'
 import type { ConnectionOptions, TracedFrame } from './connection-options'
@@ -17,6 +25,7 @@ export interface LineOwner<Head> {
   readonly counters: Counters
   readonly serials: SerialNumbers
   readonly fence: Fence<Head>
+  readonly roundTrips: RoundTrips
   /** The PLC has answered the first request. */
   verified(): void
   /** The PLC has answered a request of the program. */
@@ -31,6 +40,8 @@ export interface LineOwner<Head> {
 }
 
 type Done<Head> = Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>
+
+type TooLate = Extract<Outcome<unknown>, { kind: 'tooLate' }>
 
 export class Line<Head> {
   readonly #options: ConnectionOptions<Head>
@@ -99,9 +110,9 @@ export class Line<Head> {
 
   #opened(transport: Transport): void {
     const { framing, inFlight, clock } = this.#options
-    const { serials } = this.#owner
+    const { serials, roundTrips } = this.#owner
     this.#openBy = undefined
-    const options = { kind: transport.kind, window: inFlight, serials }
+    const options = { kind: transport.kind, window: inFlight, serials, roundTrips }
     this.#session = new Session<Head, Call<Head>>(framing, options, this.#fenceFor(transport))
     this.submit(this.#opening.begin(clock.now()))
     this.flush()
@@ -243,6 +254,7 @@ export class Line<Head> {
     if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
     else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
     else if (outcome.kind === 'unproved') this.#unproved(job)
+    else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
     // `disconnected` is met by `end` only.
     else if (outcome.kind === 'failed') job.fail(outcome.error)
   }
@@ -285,6 +297,12 @@ export class Line<Head> {
     }
     const causes = this.#owner.causes(this.peer)
     this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
+  }
+
+  /** It waited so long that an answer would not come in time: the connection is as good as before. */
+  #tooLate(job: Call<Head>, { waiting, roundTrip }: TooLate): void {
+    if (!this.#opening.owns(job)) this.#owner.counters.add('overloaded')
+    job.fail(failure.overloaded(job.exchange.title, waiting, roundTrip))
   }
 
   /** What must come back before a request on a fixed port did not: the request was not sent. */
