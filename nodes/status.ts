@@ -38,6 +38,7 @@ const FAILURE_TEXTS = {
   OVERLOADED: 'overloaded',
   NOT_VERIFIED: 'notVerified',
   UNFINISHED: 'unfinished',
+  NOT_ALL_WRITTEN: 'unfinished',
   NOT_CONFIGURED: 'badSettings',
   BAD_INPUT: 'badInput',
   READ_BACK: 'readBack',

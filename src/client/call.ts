@@ -1,6 +1,7 @@
 import { ClosedError, type PlcError, RequestError } from '../errors'
 import type { BodyLength, Exchange, Job, Priority, ResponseFrame } from '../link/link'
 import { abortedBeforeSending, asPlcError } from './failure'
+import { checkNames } from './given'
 
 /** What every call may say. */
 export interface CallOptions {
@@ -22,6 +23,26 @@ export interface BoundOptions extends CallOptions {
 
 /** A call may wait for a day, as the option `timeout` of the client. */
 const LONGEST = 24 * 60 * 60 * 1000
+
+/** Names of options, each once: the type sees to it that none is missing. */
+export type OptionNames<Options> = Readonly<Record<keyof Options, true>>
+
+const OF_EVERY_CALL: OptionNames<CallOptions> = { timeout: true, signal: true }
+
+/**
+ * The part of a call's options that every call has.
+ * @param own names of the options that only this kind of call has
+ * @throws RequestError BAD_OPTION for an option that this call does not have: misspelt, it would be the usual one, and
+ *   nobody would notice
+ */
+export function callOptionsOf(given: CallOptions | undefined, own: Readonly<Record<string, true>> = {}): CallOptions {
+  if (given === undefined) return {}
+  checkNames('', given, { ...own, ...OF_EVERY_CALL })
+  const problem = optionProblem(given)
+  if (problem !== undefined) throw problem
+  const { timeout, signal } = given
+  return { ...(timeout === undefined ? {} : { timeout }), ...(signal === undefined ? {} : { signal }) }
+}
 
 /**
  * What is wrong with the options of a call. Programs without types pass texts and NaN, and a deadline made of those is
