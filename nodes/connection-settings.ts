@@ -40,6 +40,7 @@ export interface ConnectionSettings {
   readonly monitoringTimer: string
   /** ms */
   readonly timeout: string
+  readonly probe: string
   readonly inFlight: string
   /** Words. */
   readonly gap: string
@@ -71,6 +72,7 @@ const TEXT_FIELDS = [
   'extensionStation',
   'monitoringTimer',
   'timeout',
+  'probe',
   'inFlight',
   'gap',
   'encoding',
@@ -154,6 +156,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       xyRadix: xyRadixOf(settings, texts),
       monitoringTimer: number('monitoringTimer'),
       timeout: number('timeout'),
+      probe: choice(settings, 'probe', ['auto', 'typeName', 'read', 'none'], texts),
       inFlight: number('inFlight'),
       gap: number('gap'),
     }),

@@ -7,12 +7,15 @@
  */
 import type { NodeAPI } from 'node-red'
 import {
+  ConnectionError,
   createMelsecClient,
   EndCodeError,
   type Identity,
   type MelsecClient,
   type MelsecClientOptions,
+  type PlcError,
   RequestError,
+  TimeoutError,
 } from '../src/index'
 import { endpoint, objectIn } from './admin'
 import type { Connection } from './connection'
@@ -119,14 +122,14 @@ async function ask(client: MelsecClient, signal: AbortSignal): Promise<TestResul
   }
 }
 
-/** Self Test does nothing but send back; a PLC that lacks it is asked for its own name, or a special relay. */
+/** Self Test does nothing but send back; a PLC that lacks it is read instead. */
 async function rounds(client: MelsecClient, call: { timeout: number; signal: AbortSignal }): Promise<number[]> {
   const times: number[] = []
   let measure = async () => (await client.selfTest(undefined, call)).roundTrip
   const first = await unlessRefused(measure)
   if ('refusal' in first) {
     measure = async () => {
-      await client.read('SM400', call)
+      await client.read('D0', call)
       return client.statistics.roundTrip?.last ?? Number.NaN
     }
   } else {
@@ -136,12 +139,21 @@ async function rounds(client: MelsecClient, call: { timeout: number; signal: Abo
   return times
 }
 
+/** Not to know a command is no fault of the connection: some devices refuse it, others say nothing or close. */
+function isUnknown(error: unknown): error is PlcError {
+  return error instanceof TimeoutError || (error instanceof ConnectionError && error.code === 'DISCONNECTED')
+}
+
 /** A PLC that refuses answers, and that is what is tested; everything else is thrown. */
 async function unlessRefused<T>(ask: () => Promise<T>): Promise<{ value: T } | { refusal: string }> {
   try {
     return { value: await ask() }
   } catch (error) {
-    if (error instanceof EndCodeError || (error instanceof RequestError && error.code === 'UNSUPPORTED')) {
+    if (
+      isUnknown(error) ||
+      error instanceof EndCodeError ||
+      (error instanceof RequestError && error.code === 'UNSUPPORTED')
+    ) {
       return { refusal: error.message }
     }
     throw error

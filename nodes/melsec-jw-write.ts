@@ -27,7 +27,7 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
     const given = await entriesFor(message)
     const client = connection.clientFor('write')
     const entries = await fittingEntries(client, given, convert)
-    const results = await client.writeEach(entries, { readModifyWrite, allOrNothing: true })
+    const results = await client.write(entries, { readModifyWrite, allOrNothing: true })
     const failure = writeFailure(entries, results, texts)
     if (failure !== undefined) throw convert ? failure : withHint(failure, client, entries, texts)
     if (readBack) await check(client, entries, tools)

@@ -3,30 +3,8 @@
 
 export type { BufferMemory } from './client/buffer-memory'
 export type { CallOptions } from './client/call'
-export type {
-  ClientEvents,
-  Items,
-  ItemValue,
-  NumberArray,
-  OnDemand,
-  ReadPlan,
-  ReadValue,
-  UnsolicitedFrame,
-  WriteEntry,
-  WritePlan,
-  WriteValue,
-  WriteValues,
-} from './client/client-types'
 export type { ConnectionState } from './client/connection'
-export type {
-  ClearMode,
-  Control,
-  Identity,
-  LatchClearOptions,
-  PauseOptions,
-  RunOptions,
-  StopOptions,
-} from './client/control'
+export type { ClearMode, Control, Identity, PauseOptions, RunOptions, StopOptions } from './client/control'
 export type {
   CopyOptions,
   FileData,
@@ -49,7 +27,18 @@ export type {
   LabelValue,
   LabelWriteResult,
 } from './client/labels'
-export { createMelsecClient, MelsecClient } from './client/melsec-client'
+export {
+  type ClientEvents,
+  createMelsecClient,
+  type ItemValue,
+  MelsecClient,
+  type OnDemand,
+  type ReadPlan,
+  type ReadValue,
+  type UnsolicitedFrame,
+  type WriteEntry,
+  type WritePlan,
+} from './client/melsec-client'
 export type { Monitor } from './client/monitor'
 export type { RequestExplanation } from './client/named-request'
 export type { MelsecClientOptions } from './client/options'
@@ -66,6 +55,7 @@ export {
   type RequestDescription,
   tryParseItem,
   type WriteOptions,
+  type WriteResult,
 } from './client/plan'
 export type { RoundTrip, Statistics } from './client/statistics'
 export type { ConnectionStateName } from './client/supervisor'
@@ -84,8 +74,6 @@ export {
   TimeoutError,
   UnfinishedError,
   VerifyError,
-  WriteError,
-  type WriteResult,
 } from './errors'
 export { explainJwFrame } from './jw/explain-frame'
 export { type ACompatibleCommandName, type ACompatibleCommands, aCompatibleCommands } from './melsec/a-compatible'

@@ -29,6 +29,7 @@ export function connection(plc) {
     multidrop: '0',
     timeout: '3000',
     monitoringTimer: '',
+    probe: 'auto',
     inFlight: '1',
     gap: '64',
     xyRadix: '',

@@ -36,6 +36,7 @@ export interface ConnectionOptions {
   readonly monitoringTimer?: number
   readonly localAddress?: string
   readonly localPort?: number
+  readonly probe?: NonNullable<MelsecClientOptions['probe']>
   readonly timeout: number
   readonly connectTimeout: number
   readonly password?: boolean
@@ -50,6 +51,9 @@ export interface FormatOptions {
   readonly encoding?: NonNullable<ValueFormat['encoding']>
 }
 
+const PROBES = ['auto', 'typeName', 'read', 'none'] as const satisfies readonly NonNullable<
+  MelsecClientOptions['probe']
+>[]
 const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullable<ValueFormat['wordOrder']>[]
 /** Every frame that any family has. */
 const FRAMES: readonly FrameName[] = [...new Set(Object.values(profiles).flatMap(({ frames }) => frames))].sort()
@@ -162,6 +166,7 @@ export function addConnectionOptions(command: Command): Command {
         whole(1, 65535),
       ),
     )
+    .addOption(choice('--probe <name>', 'request that proves the connection (default: auto)', PROBES))
     .addOption(new Option('--timeout <ms>', 'time for an answer').default(3000).argParser(whole(1, 3_600_000)))
     .addOption(
       new Option('--connect-timeout <ms>', 'time for the connection').default(5000).argParser(whole(1, 3_600_000)),
@@ -258,7 +263,17 @@ export function clientOptions(
 ): MelsecClientOptions {
   const { profile, frame, ascii, asciiXy, asciiZr, asciiWordOrder, xyRadix, monitoringTimer, localAddress, localPort } =
     options
-  const { network, station, moduleIo: module, multidrop, extensionStation, wordOrder, byteOrder, encoding } = options
+  const {
+    network,
+    station,
+    moduleIo: module,
+    multidrop,
+    extensionStation,
+    wordOrder,
+    byteOrder,
+    encoding,
+    probe,
+  } = options
   return {
     ...peerOf(options),
     transport: options.udp === true ? 'udp' : 'tcp',
@@ -267,7 +282,18 @@ export function clientOptions(
     connectTimeout: options.connectTimeout,
     route: given({ network, station, moduleIo: module, multidrop, extensionStation }),
     format: given({ wordOrder, byteOrder, encoding }),
-    ...given({ profile, frame, asciiXy, asciiZr, asciiWordOrder, xyRadix, monitoringTimer, localAddress, localPort }),
+    ...given({
+      profile,
+      frame,
+      asciiXy,
+      asciiZr,
+      asciiWordOrder,
+      xyRadix,
+      monitoringTimer,
+      localAddress,
+      localPort,
+      probe,
+    }),
     ...allow,
   }
 }

@@ -32,6 +32,15 @@ export interface Silence {
   readonly peer: string
   /** Whether this PLC ever answered this client. */
   readonly answeredBefore: boolean
+  /** The only request that it was asked, when it is the client's own that proves the connection. */
+  readonly onlyAsked?: string
+}
+
+/** A request that proves a connection: any answer to it, also a refusal, proves that the PLC is there. */
+export interface Probe<Head> {
+  /** With its number, as people find it in the manual: `Read Type Name (0101)`. */
+  readonly name: string
+  readonly exchange: () => Exchange<Head, unknown>
 }
 
 /** How a locked PLC is opened: before everything else on each connection. */
@@ -57,8 +66,11 @@ export interface ConnectionOptions<Head> {
   readonly timeout: number
   /** Opens a PLC that is locked by a remote password. */
   readonly unlocking?: Unlocking<Head>
-  /** The first request on a new connection, behind unlocking. Any answer to it, also a refusal, proves that the PLC is there. */
-  readonly probe: () => Exchange<Head, unknown>
+  /**
+   * The first request on a new connection, behind unlocking. Where it gets no answer the next one is tried, on another
+   * connection. None: the first request of the program proves the connection.
+   */
+  readonly probes: readonly Probe<Head>[]
   /**
    * A request that changes nothing, and how its answer is known among all others: a self test with a pattern that was
    * not used before. For a fixed local port and a frame without serial number.

@@ -1,13 +1,14 @@
 // One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
 // It knows no protocol family; Exchange and Framing bring that.
 import type { ConnectionError, PlcError } from '../errors'
-import { type Exchange, Fence, type ResponseFrame, RoundTrips, SerialNumbers } from '../link/link'
+import { type Echo, type Exchange, Fence, type ResponseFrame, SerialNumbers } from '../link/link'
 import type { Clock } from '../transport/clock'
 import { Alarm } from './alarm'
 import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
 import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
 import * as failure from './failure'
 import { Line, type LineOwner, takeAsDone } from './line'
+import { Probing } from './probing'
 import { Signals } from './signals'
 import { Counters, type Statistics } from './statistics'
 import { Supervisor } from './supervisor'
@@ -26,6 +27,7 @@ export class Connection<Head> {
   readonly #alarm: Alarm
   readonly #signals = new Signals()
   readonly #owner: LineOwner<Head>
+  readonly #probing: Probing<Head>
   /** Calls that wait for the connection. */
   #held: Call<Head>[] = []
   #line: Line<Head> | undefined
@@ -42,20 +44,30 @@ export class Connection<Head> {
     this.#supervisor = new Supervisor(options.supervisor)
     this.#alarm = new Alarm(options.clock, () => this.#guard(() => this.#timeout()))
     this.#since = options.clock.time()
-    const { explainSilence, framing, proof, timeout } = options
+    const { explainSilence, framing, proof, probes, timeout } = options
+    const probing = new Probing(probes)
+    this.#probing = probing
     this.#owner = {
       counters: this.#counters,
       serials: new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000)),
       fence: new Fence(framing, { ask: proof, patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT) }),
-      roundTrips: new RoundTrips(),
-      verified: () => this.#verified(),
-      proved: () => this.#supervisor.proved(),
+      verified: (answered) => this.#verified(answered),
+      proved: () => {
+        this.#answeredBefore = true
+        this.#supervisor.proved()
+      },
       lost: (error) => this.#lost(error),
       schedule: () => this.#schedule(),
       trace: (direction, bytes) => {
         if (this.onTrace !== undefined) tell(this.onTrace, { time: this.#clock.time(), direction, bytes })
       },
-      causes: (peer) => explainSilence({ peer, answeredBefore: this.#answeredBefore }),
+      causes: (peer, asked) => {
+        const onlyAsked = asked === undefined ? {} : { onlyAsked: asked }
+        return explainSilence({ peer, answeredBefore: this.#answeredBefore, ...onlyAsked })
+      },
+      get unanswered() {
+        return probing.unanswered
+      },
     }
   }
 
@@ -109,11 +121,11 @@ export class Connection<Head> {
     const { signal } = options
     if (signal?.aborted === true) return Promise.reject(failure.abortedBeforeSending(failure.CONNECTING, signal.reason))
     if (this.#supervisor.name === 'connected') return Promise.resolve()
-    const exchange = { ...this.#options.probe(), title: failure.CONNECTING }
-    // Longer than an attempt can take, so that it ends with the attempt's own reason.
-    const { connectTimeout, supervisor } = this.#options
-    const timeout = 2 * connectTimeout + supervisor.settleGap + 1
-    // It only waits: what proves the connection is the attempt's own probe.
+    // Longer than an attempt can take with all its probes, so that it ends with the attempt's own reason.
+    const { connectTimeout, supervisor, probes } = this.#options
+    const timeout = Math.max(1, probes.length) * (2 * connectTimeout + supervisor.settleGap) + 1
+    // It only waits and is never sent: what proves the connection is the attempt's own probe.
+    const exchange = connecting(this.#options.proof())
     return new Promise<void>((resolve, fail) => {
       this.#submit(exchange, { answer: () => resolve(), fail }, options, timeout, false)
     })
@@ -131,9 +143,9 @@ export class Connection<Head> {
       settle.fail(refusal)
       return
     }
-    const { timeout = usual, signal, onlyOn, caller } = options
+    const { timeout = usual, signal, onlyOn } = options
     const now = this.#clock.now()
-    const call = new Call(exchange, now + timeout, settle, { sends, onlyOn, allowance: timeout, caller })
+    const call = new Call(exchange, now + timeout, settle, sends, onlyOn)
     if (sends) this.#counters.add('requests')
     if (signal !== undefined) {
       call.abortedBy(
@@ -237,7 +249,7 @@ export class Connection<Head> {
 
   #open(): void {
     this.#counters.add('connects')
-    const line = new Line(this.#options, this.#owner)
+    const line = new Line(this.#options, this.#owner, this.#probing.next)
     this.#line = line
     this.#tellState()
     this.#guard(() => {
@@ -247,8 +259,9 @@ export class Connection<Head> {
     this.#schedule()
   }
 
-  #verified(): void {
-    this.#answeredBefore = true
+  #verified(answered: boolean): void {
+    if (answered) this.#answeredBefore = true
+    this.#probing.answered()
     this.#generation += 1
     this.#supervisor.connected(this.#clock.now())
     this.#tellState()
@@ -264,8 +277,12 @@ export class Connection<Head> {
     if (this.#supervisor.name === 'closed') return
     const line = this.#line
     this.#line = undefined
+    const probe = line?.probing
     const pause = line?.isFinal(error) === true ? Number.POSITIVE_INFINITY : 0
-    this.#supervisor.lost(error, this.#clock.now(), pause)
+    if (line !== undefined && probe !== undefined && this.#probing.lost(error)) {
+      const next = this.#probing.next?.probe.name ?? ''
+      this.#supervisor.again(failure.probeUnanswered(line.peer, probe, next, error), this.#clock.now())
+    } else this.#supervisor.lost(error, this.#clock.now(), pause)
     if (line?.isOpen === true) this.#counters.add('disconnects')
     line?.end((call, sent) => this.#handedBack(call, sent, error))
     if (!this.#supervisor.hopeful) {
@@ -290,8 +307,9 @@ export class Connection<Head> {
   /** A call that waited for the connection in vain. */
   #notConnected(call: Call<Head>): void {
     if (call.sends) this.#counters.add('timeouts')
-    const { peer = 'the PLC', isOpen: open = false } = this.#line ?? {}
-    const attempt = { peer, open, causes: open ? this.#owner.causes(peer) : [], reason: this.#supervisor.error }
+    const { peer = 'the PLC', isOpen: open = false, probing: asked } = this.#line ?? {}
+    const causes = open ? this.#owner.causes(peer, asked) : []
+    const attempt = { peer, open, causes, reason: this.#supervisor.error, asked }
     call.fail(failure.notConnectedInTime(call.sends ? call.exchange.title : undefined, attempt))
   }
 
@@ -318,4 +336,11 @@ export class Connection<Head> {
     this.#line?.timeout(now)
     this.#schedule()
   }
+}
+
+/** Stands for a call that only waits for the connection; the head is as good as any other. */
+function connecting<Head>({ head, responseLength }: Echo<Head>): Exchange<Head, undefined> {
+  const body = Buffer.alloc(0)
+  const nothing = { effect: 'diagnose', message: {}, answered: true, decode: () => undefined } as const
+  return { title: failure.CONNECTING, head, body, responseLength, ...nothing }
 }

@@ -30,7 +30,9 @@ const KNOWN_TO: Readonly<Partial<Record<FrameName, string>>> = {
 
 /** Ranked causes of a silence, as sentences that say what to check. */
 export function explainSilence(settings: LinkSettings, silence: Silence): readonly string[] {
-  return silence.answeredBefore ? afterItWorked() : fromTheStart(settings)
+  if (silence.answeredBefore) return afterItWorked()
+  const causes = fromTheStart(settings)
+  return silence.onlyAsked === undefined ? causes : [...causes, unknownProbe(silence.onlyAsked)]
 }
 
 function fromTheStart(settings: LinkSettings): readonly string[] {
@@ -49,10 +51,16 @@ function fromTheStart(settings: LinkSettings): readonly string[] {
   return routed ? [elsewhere, ...ranked] : ranked
 }
 
+/** Nothing else was asked, so it may be that request alone that the device does not know. */
+function unknownProbe(asked: string): string {
+  return `The device does not know ${asked}, which is all that it was asked: set probe to read or none.`
+}
+
 function afterItWorked(): readonly string[] {
   return [
     'The PLC is off, restarting, or its cable or a switch on the way is interrupted.',
     'The PLC needed longer than the timeout: raise it, or ask for less at once.',
     'The port settings of the PLC were changed (data code, entry, remote password) since it last answered.',
+    'The device answers other requests, but does not know this one and says nothing to it.',
   ]
 }

@@ -58,26 +58,37 @@ export function queueFull(title: string, waiting: number): ClosedError {
   return new ClosedError('QUEUE_FULL', message)
 }
 
-/** The PLC ended the connection. Without a single byte before it, that means that no entry was free. */
-export function closedByPeer(peer: string, receivedAnything: boolean): ConnectionError {
+/** `Read Type Name (0101)`, or several such names. */
+function listed(names: readonly string[]): string {
+  return names.join(' and ')
+}
+
+/**
+ * The PLC ended the connection. Without a single byte before it, that means that no entry was free, or that it does not
+ * know the client's own requests, which are all that it was asked: `asked`.
+ */
+export function closedByPeer(peer: string, receivedAnything: boolean, asked: readonly string[]): ConnectionError {
   if (receivedAnything) {
     return new ConnectionError('DISCONNECTED', `The PLC closed the connection (${peer}).`, 'unknown')
   }
   const message =
-    `${peer} accepted the connection and closed it at once. All connection entries of this port are probably taken, ` +
-    'also by a program that ended without closing. Close the other one, add an entry in the PLC parameters, or wait for the PLC to release it.'
+    `${peer} accepted the connection and closed it at once${asked.length === 0 ? '' : `, without an answer to ${listed(asked)}`}. ` +
+    'All connection entries of this port are probably taken, also by a program that ended without closing. Close the other one, add an entry in the PLC parameters, ' +
+    `or wait for the PLC to release it.${otherProbe(asked)}`
   return new ConnectionError('ENTRY_BUSY', message)
 }
 
-/** More is asked than the PLC answers: sent now, it would expire in flight, and perhaps take the connection with it. */
-export function overloaded(title: string, waiting: number, roundTrip: number | undefined): ClosedError {
-  const others = waiting > 1 ? `${waiting} requests wait` : 'its time was used up by waiting'
-  const each =
-    roundTrip === undefined ? '' : `, and the PLC needs about ${Math.max(1, Math.round(roundTrip))} ms for each`
-  const message =
-    `${title} was not sent, because its answer would come after its deadline: ${others}${each}. ` +
-    'Ask less often, read more by one request, or raise the timeout.'
-  return new ClosedError('OVERLOADED', message)
+/** What helps with a device that meets the client's own request with closing: it was asked nothing else. */
+function otherProbe(asked: readonly string[]): string {
+  if (asked.length === 0) return ''
+  const values = asked.length === 1 ? 'read or none' : 'none'
+  return ` Or the device does not know ${listed(asked)}: set probe to ${values}.`
+}
+
+/** A probe got no answer; the next connection tries another one. */
+export function probeUnanswered(peer: string, asked: string, next: string, reason: PlcError): ConnectionError {
+  const message = `${peer} did not answer ${asked}; the next connection is proved by ${next}. ${reason.message}`
+  return new ConnectionError('SILENT', message, 'unknown', reason)
 }
 
 export function lostInFlight(title: string, reason: PlcError): ConnectionError {
@@ -111,13 +122,17 @@ export interface Attempt {
   readonly causes: readonly string[]
   /** Why the connection before it was lost. */
   readonly reason: PlcError | undefined
+  /** What it was asked last to prove the connection. */
+  readonly asked: string | undefined
 }
 
 /** The connection took too long. `title` is undefined for a call that only waits for the connection. */
 export function notConnectedInTime(title: string | undefined, attempt: Attempt): TimeoutError {
-  const { peer, open, causes, reason } = attempt
+  const { peer, open, causes, reason, asked } = attempt
   const what = title === undefined ? 'Connecting took longer than allowed' : `${title} was not sent before its deadline`
-  const state = open ? `${peer} has not answered yet` : `there is no connection to ${peer} yet`
+  const state = open
+    ? `${peer} has not answered ${asked === undefined ? '' : `${asked} `}yet`
+    : `there is no connection to ${peer} yet`
   const before = reason === undefined ? '' : ` ${reason.message}`
   return new TimeoutError(`${what}: ${state}.${mostLikely(causes)}${before}`, 'notSent', causes)
 }
@@ -135,9 +150,15 @@ export function noAnswer(title: string, peer: string, causes: readonly string[])
 }
 
 /** Connected, but nothing answers. */
-export function silent(peer: string, causes: readonly string[], cause: PlcError): ConnectionError {
+export function silent(
+  peer: string,
+  causes: readonly string[],
+  cause: PlcError,
+  asked: readonly string[],
+): ConnectionError {
   const ranked = causes.map((text, i) => `${i + 1}. ${text}`).join(' ')
-  const message = `${peer} does not answer.${ranked === '' ? '' : ` Possible causes: ${ranked}`}`
+  const what = asked.length === 0 ? '' : ` ${listed(asked)}`
+  const message = `${peer} does not answer${what}.${ranked === '' ? '' : ` Possible causes: ${ranked}`}`
   return new ConnectionError('SILENT', message, 'unknown', cause, causes)
 }
 

@@ -2,15 +2,14 @@
 import { ClosedError, PlcError, RequestError } from '../errors'
 import { attemptFor, isFine } from './attempt'
 import { type AskedLabel, checkElements, type LabelFormat } from './label-item'
-import { typeOf } from './label-read'
+import { type LabelValue, typeOf } from './label-read'
 import type { LabelRequests, LabelWrite } from './label-request'
 import { encodeLabel } from './label-value'
-import type { WriteValue } from './plan'
 
 /** A label and what it is to hold. A list goes to an array from the element named on. */
 export interface LabelEntry {
   readonly asked: AskedLabel
-  readonly value: WriteValue
+  readonly value: LabelValue
 }
 
 /**
@@ -18,7 +17,7 @@ export interface LabelEntry {
  * @throws RequestError OUT_OF_RANGE for an empty list, BAD_ADDRESS when a list has no first element, BAD_VALUE when a
  *   count says otherwise
  */
-export function labelEntry(asked: AskedLabel, value: WriteValue): LabelEntry {
+export function labelEntry(asked: AskedLabel, value: LabelValue): LabelEntry {
   const { address, count, ...others } = asked
   const length = Array.isArray(value) ? value.length : undefined
   if (length !== undefined) checkElements(address, length)

@@ -1,19 +1,12 @@
 // One attempt to connect and the connection it becomes: a transport, a session, and the first request that proves it.
 import { type ConnectionError, EndCodeError, endsConnection, type PlcError, ProtocolError } from '../errors'
-import {
-  type Fence,
-  type Outcome,
-  type ResponseFrame,
-  type RoundTrips,
-  type SerialNumbers,
-  Session,
-  type SessionEvent,
-} from '../link/link'
+import { type Fence, type ResponseFrame, type SerialNumbers, Session, type SessionEvent } from '../link/link'
 import type { Transport } from '../transport/transport'
 import type { Call } from './call'
 import type { ConnectionOptions, TracedFrame } from './connection-options'
 import * as failure from './failure'
 import { Opening } from './opening'
+import type { NextProbe } from './probing'
 import type { Counters } from './statistics'
 import { tell } from './tell'
 
@@ -25,9 +18,8 @@ export interface LineOwner<Head> {
   readonly counters: Counters
   readonly serials: SerialNumbers
   readonly fence: Fence<Head>
-  readonly roundTrips: RoundTrips
-  /** The PLC has answered the first request. */
-  verified(): void
+  /** The PLC has answered the first request; or nothing is asked, and the first request of the program proves it. */
+  verified(answered: boolean): void
   /** The PLC has answered a request of the program. */
   proved(): void
   /** The line is of no use any more: the owner ends it. */
@@ -35,13 +27,13 @@ export interface LineOwner<Head> {
   /** Something is due at another time than before. */
   schedule(): void
   trace(direction: TracedFrame['direction'], bytes: Buffer): void
-  /** Ranked causes of a silence of this peer. */
-  causes(peer: string): readonly string[]
+  /** Ranked causes of a silence of this peer. `asked`: the client's own request, when it was asked no other. */
+  causes(peer: string, asked?: string): readonly string[]
+  /** The client's own requests that got no answer on the connections just before. */
+  readonly unanswered: readonly string[]
 }
 
 type Done<Head> = Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>
-
-type TooLate = Extract<Outcome<unknown>, { kind: 'tooLate' }>
 
 export class Line<Head> {
   readonly #options: ConnectionOptions<Head>
@@ -54,10 +46,15 @@ export class Line<Head> {
   #receivedAnything = false
   #ended = false
 
-  constructor(options: ConnectionOptions<Head>, owner: LineOwner<Head>) {
+  constructor(options: ConnectionOptions<Head>, owner: LineOwner<Head>, probe: NextProbe<Head> | undefined) {
     this.#options = options
     this.#owner = owner
-    this.#opening = new Opening(options)
+    this.#opening = new Opening(options, probe)
+  }
+
+  /** Name of the request that is to prove the connection and has no answer yet. */
+  get probing(): string | undefined {
+    return this.#opening.probing
   }
 
   /** Whether bytes can be sent; the PLC need not have answered yet. */
@@ -110,11 +107,13 @@ export class Line<Head> {
 
   #opened(transport: Transport): void {
     const { framing, inFlight, clock } = this.#options
-    const { serials, roundTrips } = this.#owner
+    const { serials } = this.#owner
     this.#openBy = undefined
-    const options = { kind: transport.kind, window: inFlight, serials, roundTrips }
+    const options = { kind: transport.kind, window: inFlight, serials }
     this.#session = new Session<Head, Call<Head>>(framing, options, this.#fenceFor(transport))
-    this.submit(this.#opening.begin(clock.now()))
+    const first = this.#opening.begin(clock.now())
+    if (first === undefined) this.#owner.verified(false)
+    else this.submit(first)
     this.flush()
   }
 
@@ -127,7 +126,7 @@ export class Line<Head> {
   /** A first request was answered. */
   #goOn(refusal: PlcError | undefined): void {
     const next = this.#opening.next(refusal, this.#options.clock.now())
-    if (next === undefined) this.#owner.verified()
+    if (next === undefined) this.#owner.verified(true)
     else if ('exchange' in next) this.submit(next)
     else this.#lost(next)
   }
@@ -143,7 +142,18 @@ export class Line<Head> {
   }
 
   #closed(error: ConnectionError | undefined): void {
-    this.#lost(error ?? failure.closedByPeer(this.peer, this.#receivedAnything))
+    this.#lost(error ?? failure.closedByPeer(this.peer, this.#receivedAnything, this.#askedAlone()))
+  }
+
+  /** The client's own requests, when no other was asked since a connection that worked. */
+  #askedAlone(): readonly string[] {
+    const { probing } = this.#opening
+    return probing === undefined ? [] : [...this.#owner.unanswered, probing]
+  }
+
+  #causes(): readonly string[] {
+    const asked = this.#askedAlone()
+    return this.#owner.causes(this.peer, asked.length === 1 ? asked[0] : undefined)
   }
 
   /** Sends it when its turn comes. `flush` afterwards. */
@@ -254,7 +264,6 @@ export class Line<Head> {
     if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
     else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
     else if (outcome.kind === 'unproved') this.#unproved(job)
-    else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
     // `disconnected` is met by `end` only.
     else if (outcome.kind === 'failed') job.fail(outcome.error)
   }
@@ -295,29 +304,25 @@ export class Line<Head> {
       job.fail(failure.notSentInTime(job.exchange.title))
       return
     }
-    const causes = this.#owner.causes(this.peer)
+    const causes = this.#causes()
     this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
-  }
-
-  /** It waited so long that an answer would not come in time: the connection is as good as before. */
-  #tooLate(job: Call<Head>, { waiting, roundTrip }: TooLate): void {
-    if (!this.#opening.owns(job)) this.#owner.counters.add('overloaded')
-    job.fail(failure.overloaded(job.exchange.title, waiting, roundTrip))
   }
 
   /** What must come back before a request on a fixed port did not: the request was not sent. */
   #unproved(job: Call<Head>): void {
     if (!this.#opening.owns(job)) this.#owner.counters.add('timeouts')
-    const causes = this.#owner.causes(this.peer)
+    const causes = this.#causes()
     this.#silence(job, causes, failure.unproved(job.exchange.title, this.peer, causes))
   }
 
   #silence(job: Call<Head>, causes: readonly string[], error: PlcError): void {
-    const isProbe = this.#opening.owns(job)
+    // Without an answer of any kind there is nothing to lose; the probe is such a case.
+    const unproved = this.#opening.owns(job) || !this.#receivedAnything
     job.fail(error)
     this.#silent += 1
     // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
-    if (isProbe || this.#silent >= SILENT_REQUESTS) this.#lost(failure.silent(this.peer, causes, error))
+    if (unproved || this.#silent >= SILENT_REQUESTS)
+      this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
   }
 }
 

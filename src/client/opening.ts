@@ -4,6 +4,7 @@ import type { Exchange } from '../link/link'
 import { Call } from './call'
 import type { ConnectionOptions } from './connection-options'
 import * as failure from './failure'
+import type { NextProbe } from './probing'
 
 /**
  * ms without traffic after which a UDP connection is unlocked again before the next request: the PLC locks it after 10
@@ -11,25 +12,42 @@ import * as failure from './failure'
  */
 const UNLOCKED_FOR = 9 * 60_000
 
+type Options<Head> = Pick<ConnectionOptions<Head>, 'unlocking' | 'timeout' | 'connectTimeout'>
+
 export class Opening<Head> {
-  readonly #options: Pick<ConnectionOptions<Head>, 'unlocking' | 'probe' | 'timeout' | 'connectTimeout'>
+  readonly #options: Options<Head>
+  readonly #probe: NextProbe<Head> | undefined
   #call: Call<Head> | undefined
   #unlocking = false
   #corrected = false
   #heardAt = 0
 
-  constructor(options: Pick<ConnectionOptions<Head>, 'unlocking' | 'probe' | 'timeout' | 'connectTimeout'>) {
+  constructor(options: Options<Head>, probe: NextProbe<Head> | undefined) {
     this.#options = options
+    this.#probe = probe
   }
 
-  /** The first call of a new connection. */
-  begin(now: number): Call<Head> {
+  /** The first call of a new connection; `undefined`: nothing is asked. */
+  begin(now: number): Call<Head> | undefined {
     const unlock = this.#options.unlocking?.exchange()
     this.#unlocking = unlock !== undefined
     this.#corrected = false
-    const call = this.#make(unlock ?? this.#options.probe(), now)
-    call.needsNoProof = this.#unlocking
+    if (unlock === undefined) return this.#beginProbe(now)
+    const call = this.#make(unlock, now, 1)
+    call.needsNoProof = true
     return call
+  }
+
+  /** The client waits for half as long where another probe follows: a call needs two answers within its time anyway. */
+  #beginProbe(now: number): Call<Head> | undefined {
+    if (this.#probe === undefined) return undefined
+    const { probe, hasNext } = this.#probe
+    return this.#make(probe.exchange(), now, hasNext ? 0.5 : 1)
+  }
+
+  /** Name of the probe that has no answer yet. */
+  get probing(): string | undefined {
+    return this.#call === undefined || this.#unlocking ? undefined : this.#probe?.probe.name
   }
 
   /** Whether the call is the opening's own. */
@@ -43,7 +61,7 @@ export class Opening<Head> {
     this.#call = undefined
     if (!this.#unlocking) return undefined
     this.#unlocking = false
-    return refusal ?? this.#make(this.#options.probe(), now)
+    return refusal ?? this.#beginProbe(now)
   }
 
   /** What the PLC refuses has been corrected: also counts when the old one is just being sent. */
@@ -73,10 +91,10 @@ export class Opening<Head> {
     return unlocking.exchange() === undefined ? undefined : failure.lockedAgain(peer, refusal)
   }
 
-  #make(exchange: Exchange<Head, unknown>, now: number): Call<Head> {
+  #make(exchange: Exchange<Head, unknown>, now: number, share: number): Call<Head> {
     const { timeout, connectTimeout } = this.#options
     // Nobody awaits it; how it ends is seen by the connection.
-    this.#call = new Call(exchange, now + Math.min(timeout, connectTimeout), {
+    this.#call = new Call(exchange, now + share * Math.min(timeout, connectTimeout), {
       answer: (frame) => {
         if (frame !== undefined) exchange.decode(frame)
       },

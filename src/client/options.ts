@@ -17,8 +17,9 @@ import { checkRouteOf, completeRoute, isConnectedStation, ownStation, type Route
 import { type Clock, realClock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
 import { checkFormat, type ValueFormat } from '../value/value'
-import { checkNames, shown } from './given'
+import { shown } from './given'
 import type { LabelFormat } from './label-item'
+import { checkProbe, type ProbeKind, probeKinds } from './probes'
 
 /** How to reach a MELSEC PLC and how to speak to it. Times in milliseconds. */
 export interface MelsecClientOptions {
@@ -71,6 +72,11 @@ export interface MelsecClientOptions {
    * `close()`. It is never shown. A wrong one is sent once; see `setPassword()`.
    */
   readonly password?: string
+  /**
+   * The request that proves a new connection: `typeName` Read Type Name, `read` a Read of D0, `auto` (default) the type
+   * name, and the Read where that gets no answer. `none`: the first request of the program proves it, and is sent once.
+   */
+  readonly probe?: ProbeKind
   /** Words that may be read in vain to merge near items into one request; 64. */
   readonly gap?: number
   /** Default word order, byte order and text encoding of items. */
@@ -105,6 +111,7 @@ export interface Settings {
   readonly queueLimit: number
   readonly allowWrites: boolean
   readonly allowControl: boolean
+  readonly probe: ProbeKind
   readonly gap: number
   readonly format: ValueFormat
   readonly labelFormat: LabelFormat
@@ -142,6 +149,7 @@ const NAMES = {
   allowWrites: true,
   allowControl: true,
   password: true,
+  probe: true,
   gap: true,
   format: true,
   reconnect: true,
@@ -191,6 +199,7 @@ export function settle(options: MelsecClientOptions): Settings {
     queueLimit: whole('queueLimit', options.queueLimit ?? 256, 1, 1_000_000),
     allowWrites: oneOf('allowWrites', options.allowWrites ?? false, [true, false]),
     allowControl: oneOf('allowControl', options.allowControl ?? false, [true, false]),
+    probe: checkProbe(profile, oneOf('probe', options.probe ?? 'auto', probeKinds)),
     gap: whole('gap', options.gap ?? 64, 0, 960),
     format: options.format ?? {},
     labelFormat: labelFormatOf(options),
@@ -214,6 +223,19 @@ function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }
     ...(encoding === undefined ? {} : { encoding }),
     ...(trimSpaces === undefined ? {} : { trim: trimSpaces }),
     ...(asciiWordOrder === undefined ? {} : { asciiWordOrder }),
+  }
+}
+
+/** A misspelt option would be the default, without anybody noticing. */
+function checkNames(prefix: string, given: object, names: Readonly<Record<string, true>>): void {
+  if (typeof given !== 'object' || given === null) {
+    const what = prefix === '' ? 'A client' : prefix.slice(0, -1)
+    throw new RequestError('BAD_OPTION', `${what} takes an object with ${Object.keys(names).join(', ')}.`)
+  }
+  for (const name of Object.keys(given)) {
+    if (Object.hasOwn(names, name)) continue
+    const field = `${prefix}${name}`
+    throw new RequestError('BAD_OPTION', `There is no option ${field}: use ${Object.keys(names).join(', ')}.`, field)
   }
 }
 

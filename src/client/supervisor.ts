@@ -99,6 +99,14 @@ export class Supervisor {
     return true
   }
 
+  /** The attempt goes on with another connection, after the pause that a PLC needs to release the entry. */
+  again(error: PlcError, now: number): void {
+    this.#name = 'waiting'
+    this.#error = error
+    this.#attempt = Math.max(0, this.#attempt - 1)
+    this.#nextAttempt = now + this.#options.settleGap
+  }
+
   /** The attempt failed, or the connection is gone or was dropped. `pauseAtLeast` may be Infinity: until `retry()`. */
   lost(error: PlcError, now: number, pauseAtLeast = 0): void {
     if (this.#name === 'closed') return

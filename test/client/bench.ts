@@ -45,7 +45,7 @@ export class Bench {
       queueLimit: 256,
       connectTimeout: 5000,
       timeout: 1000,
-      probe: this.ask.probe,
+      probes: [{ name: 'Read Type Name (0101)', exchange: this.ask.probe }],
       proof: this.ask.proof,
       explainSilence: () => CAUSES,
       onState: (state) => this.states.push(state),

@@ -188,8 +188,7 @@ describe.each(everyLink)('$frame by $kind', (link) => {
       bench.plc.script = (asked) => asked.reply()
       answer()
       await bench.settle()
-      // What changes the PLC goes ahead of what only asks.
-      expect(bench.plc.asked).toEqual(['readWords 0', 'writeWords 2', 'readWords 1'])
+      expect(bench.plc.asked).toEqual(['readWords 0', 'readWords 1', 'writeWords 2'])
       const after = bench.read(4)
       await bench.settle()
       expect(after.told).toEqual({ values: [4] })

@@ -83,7 +83,7 @@ describe.each(kinds)('connecting by %s', (kind) => {
     for (const { error } of [connecting, read]) {
       expect(error).toBeInstanceOf(TimeoutError)
       expect(error).toMatchObject({ outcome: 'notSent', causes: CAUSES })
-      expect(error?.message).toContain('has not answered yet. Most likely: the data code differs')
+      expect(error?.message).toContain('has not answered Read Type Name (0101) yet. Most likely: the data code differs')
     }
     expect(bench.state).toBe('connecting')
   })

@@ -56,5 +56,5 @@ test('a PLC that has answered before is off, slow, or was set differently', () =
   const causes = explainSilence(settings, { ...fresh, answeredBefore: true })
   expect(causes[0]).toContain('off, restarting, or its cable')
   expect(causes.join(' ')).not.toContain('ASCII code and this connection')
-  expect(causes).toHaveLength(3)
+  expect(causes).toHaveLength(4)
 })

@@ -147,7 +147,7 @@ describe.each(CODES)('Read PC type name over UDP, %s', (code) => {
 
   test('a datagram with anything else behind it is not believed', () =>
     withUdp(code === 'ascii' ? '9500F3000' : '9500F30000', async (client) => {
-      await expect(client.identify()).rejects.toMatchObject({ code: 'OFFLINE' })
+      await expect(client.identify()).rejects.toMatchObject({ code: 'TRAILING' })
       expect(client.statistics.protocolErrors).toBeGreaterThan(0)
     }))
 })

@@ -64,7 +64,7 @@ export class Loopback {
       queueLimit: 256,
       connectTimeout: 5000,
       timeout,
-      probe: this.ask.probe,
+      probes: [{ name: 'Read Type Name (0101)', exchange: this.ask.probe }],
       proof: this.ask.proof,
       explainSilence: (silence) => explainSilence(settings, silence),
       onState: (state) => this.#told(state),

@@ -27,6 +27,7 @@ describe('defaults', () => {
       queueLimit: 256,
       allowWrites: false,
       allowControl: false,
+      probe: 'auto',
       gap: 64,
       format: {},
       labelFormat: {},
