@@ -6,6 +6,7 @@ import {
   commands,
   EndCodeError,
   explainEndCode,
+  headOfError,
   type Outcome,
   PlcError,
   RequestError,
@@ -143,7 +144,9 @@ function refusedText(error: EndCodeError, { meaning, remedy }: Explanation, text
   if (languageOf(texts) === 'en-US' || meaning === undefined || command === undefined) return error.message
   const digits = abnormalCode === undefined ? [endCode] : [endCode, abnormalCode]
   const code = digits.map((number) => `${hex(number)}H`).join(', ')
-  return texts('error.refused', { command, code, meaning, remedy: remedy ?? '' })
+  const text = texts('error.refused', { command, code, meaning, remedy: remedy ?? '' })
+  const head = headOfError(error)
+  return head === undefined ? text : `${head}: ${text}`
 }
 
 /** Codes of 1E frames have two digits, all others four. */

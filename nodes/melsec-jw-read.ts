@@ -1,6 +1,6 @@
 /** Node `melsec-jw-read`: reads device values when a message arrives and passes the message on with them. */
 import type { NodeAPI } from 'node-red'
-import type { Item, MelsecClient } from '../src/index'
+import { type Item, type MelsecClient, nameResults } from '../src/index'
 import { int64Forms } from './carried-value'
 import { refusal } from './failure'
 import type { Migration, StoredSettings } from './migration'
@@ -23,7 +23,7 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
   return async (message) => {
     const { names, items } = await itemsFor(message)
     checkForm(output.form, items.length, texts)
-    const results = await planFor(connection.client, items).run()
+    const results = nameResults(await planFor(connection.client, items).run(), names)
     return answerOf(output, { names, results }, message, { RED, texts })
   }
 }

@@ -1,6 +1,6 @@
 /** Node `melsec-jw-write`: writes values when a message arrives, and passes the message on when the PLC has taken them. */
 import type { NodeAPI } from 'node-red'
-import type { Item, MelsecClient } from '../src/index'
+import { type Item, type MelsecClient, nameResults } from '../src/index'
 import { refusal } from './failure'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
@@ -27,7 +27,11 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
     const given = await entriesFor(message)
     const client = connection.clientFor('write')
     const entries = await fittingEntries(client, given, convert)
-    const results = await client.write(entries, { readModifyWrite, allOrNothing: true })
+    const written = await client.write(entries, { readModifyWrite, allOrNothing: true })
+    const results = nameResults(
+      written,
+      entries.map(({ name }) => name),
+    )
     const failure = writeFailure(entries, results, texts)
     if (failure !== undefined) throw convert ? failure : withHint(failure, client, entries, texts)
     if (readBack) await check(client, entries, tools)
@@ -36,7 +40,10 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
 }
 
 async function check(client: MelsecClient, entries: readonly NamedEntry[], { texts }: Tools): Promise<void> {
-  const results = await client.read(entries.map((entry) => readBackItem(client, entry)))
+  const results = nameResults(
+    await client.read(entries.map((entry) => readBackItem(client, entry))),
+    entries.map(({ name }) => name),
+  )
   // Of a label the PLC says the type.
   const types = results.map((result, index) => (result.ok && result.type) || typeOf(client, entries[index]))
   const failure = readBackFailure(entries, results, types, texts)

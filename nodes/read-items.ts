@@ -23,19 +23,21 @@ export function namedItems(given: unknown, texts: Texts): NamedItems {
 }
 
 function entriesOf(given: unknown, texts: Texts): [string, Item][] {
-  if (Array.isArray(given)) return given.map((item: unknown) => named(checked(item, texts)))
+  if (Array.isArray(given)) return given.map((item: unknown, index) => named(checked(item, texts, `[${index}]`)))
   if (isItem(given)) return [named(given)]
   if (typeof given !== 'object' || given === null || Buffer.isBuffer(given)) return [named(checked(given, texts))]
-  return Object.entries(given).map(([name, item]: [string, unknown]) => [name, checked(item, texts)])
+  return Object.entries(given).map(([name, item]: [string, unknown]) => [name, checked(item, texts, name)])
 }
 
 function named(item: Item): [string, Item] {
   return [typeof item === 'string' ? item : item.address, item]
 }
 
-function checked(item: unknown, texts: Texts): Item {
+/** @param place where it stands among others */
+function checked(item: unknown, texts: Texts, place?: string): Item {
   if (isItem(item)) return item
-  throw refusal('BAD_INPUT', texts('error.notAddress', { kind: kindOf(item) }))
+  const kind = place === undefined ? kindOf(item) : `${place} = ${kindOf(item)}`
+  throw refusal('BAD_INPUT', texts('error.notAddress', { kind }))
 }
 
 function isItem(given: unknown): given is Item {

@@ -1,6 +1,7 @@
 /// <reference types="node" preserve="true" />
 // The public names. No code.
 
+export { headOfError, nameResults } from './client/about'
 export type { BufferMemory } from './client/buffer-memory'
 export type { CallOptions } from './client/call'
 export type { ConnectionState } from './client/connection'

@@ -1,5 +1,6 @@
 // What may fail with a PlcError, as a value: for lists in which one bad entry must not spoil the others.
 import { PlcError, RequestError } from '../errors'
+import { about } from './about'
 
 /** The value, or the error that it turned out to be. */
 export function attempt<T>(run: () => T): T | PlcError {
@@ -18,6 +19,5 @@ export function isFine<T>(outcome: T | PlcError): outcome is T {
 /** As `attempt`; a bad value or option says what it is about. */
 export function attemptFor<T>(name: string, run: () => T): T | PlcError {
   const outcome = attempt(run)
-  if (!(outcome instanceof RequestError) || outcome.message.includes(name)) return outcome
-  return new RequestError(outcome.code, `${name}: ${outcome.message}`, outcome.field ?? name)
+  return outcome instanceof RequestError ? about(outcome, [{ item: name }]) : outcome
 }

@@ -7,6 +7,7 @@ import { abbreviated, inRequests } from '../melsec/label'
 import type { LabelArea } from '../melsec/label-codec'
 import { limitsOf, requestBytes } from '../melsec/limit'
 import type { Profile } from '../melsec/profile'
+import { about } from './about'
 import type { AskedLabel } from './label-item'
 import type { LabelContent } from './label-value'
 
@@ -136,7 +137,9 @@ export class LabelRequests {
     for (const some of this.#writeRequests(writes)) {
       const error = before === undefined ? await this.#attempt(some) : notWritten(before)
       if (error === undefined) continue
-      for (const { asked } of some) errors.set(asked, error)
+      const subjects = some.map(({ asked }) => ({ item: asked.address.name }))
+      const told = error instanceof EndCodeError ? about(error, subjects) : error
+      for (const { asked } of some) errors.set(asked, told)
       if (stops || error.outcome === 'unknown') before ??= error
     }
     return errors

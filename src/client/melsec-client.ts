@@ -10,6 +10,7 @@ import type { Head3e } from '../melsec/frame-3e'
 import type { Profile } from '../melsec/profile'
 import type { ClientProtocol, ExchangeOptions } from '../melsec/protocol'
 import { isPasswordRefusal, isPortLocked } from '../melsec/remote-password'
+import { nameResults } from './about'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
 import { type CallOptions, optionProblem } from './call'
 import type { ClientEvents, ItemValue, ReadPlan, ReadValue, WriteEntry, WritePlan } from './client-types'
@@ -247,7 +248,7 @@ export class MelsecClient {
     if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
     if (isList(items)) return this.#items.prepare(items).run(options)
     const names = namesOfItems(items, ITEMS)
-    return byName(names, await this.#items.prepare(names.map((name) => items[name] as Item)).run(options))
+    return byName(names, await this.#named(names, items, options))
   }
 
   /**
@@ -266,8 +267,16 @@ export class MelsecClient {
   async readValues(items: readonly Item[] | Readonly<Record<string, Item>>, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
     const names = namesOfItems(items, ITEMS)
+    return byName(names, (await this.#named(names, items, options)).map(plainValue))
+  }
+
+  async #named(
+    names: readonly string[],
+    items: Readonly<Record<string, Item>>,
+    options: CallOptions | undefined,
+  ): Promise<ReadResult[]> {
     const results = await this.#items.prepare(names.map((name) => items[name] as Item)).run(options)
-    return byName(names, results.map(plainValue))
+    return nameResults(results, names)
   }
 
   /**

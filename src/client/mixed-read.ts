@@ -1,6 +1,7 @@
 // Labels beside devices in one list: a plan and a monitor that read both and give the results in the order of the items.
-import type { PlcError } from '../errors'
+import { EndCodeError, type PlcError } from '../errors'
 import type { ClientProtocol } from '../melsec/protocol'
+import { about } from './about'
 import type { CallOptions } from './call'
 import type { ReadPlan } from './client-types'
 import { describeLabelRead } from './label-describe'
@@ -48,7 +49,8 @@ export class MixedItems {
 }
 
 function labelResult({ text: item }: LabelInItems, outcome: LabelOutcome): ReadResult {
-  return { item, ...outcome }
+  if (outcome.ok || !(outcome.error instanceof EndCodeError)) return { item, ...outcome }
+  return { item, ...outcome, error: about(outcome.error, [{ item }]) }
 }
 
 /** Reads the labels of a list anew each time, and remembers the types for its description. */

@@ -4,13 +4,13 @@ import type { Exchange } from '../link/link'
 import type { RequestOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import type { ClientProtocol } from '../melsec/protocol'
+import { about } from './about'
 import type { CallOptions } from './call'
 import type { Deadline } from './deadline'
 import type { ParsedItem, RefusedItem } from './item'
 import type { Run } from './plan-chunk'
 import { Areas, piecesOf, readLayout } from './plan-layout'
 import { planRead, type ReadPlan, type ReadResult } from './plan-read'
-import { about } from './plan-read-shape'
 import { type PreparedRead, prepareRead, type Send } from './plan-request'
 import { type Place, placeOf, valueAt } from './plan-value'
 
@@ -231,7 +231,7 @@ class Registered<Head> {
       return { item, ok: true, value: valueAt(words, place), timestamp }
     } catch (error) {
       if (!(error instanceof PlcError)) throw error
-      return { item, ok: false, error, timestamp }
+      return { item, ok: false, error: about(error, [{ item }]), timestamp }
     }
   }
 }
@@ -239,7 +239,8 @@ class Registered<Head> {
 function runOf(areas: Areas, item: ParsedItem, index: number): Run {
   const [piece, ...others] = piecesOf(areas, readLayout(areas, item), item, index)
   if (piece === undefined || others.length > 0 || piece.layout.area.ways.random === undefined) {
-    throw about(item, new RequestError('UNSUPPORTED', 'it cannot be registered: monitors take what Read Random takes.'))
+    const message = 'it cannot be registered: monitors take what Read Random takes.'
+    throw about(new RequestError('UNSUPPORTED', message), [{ item: item.text }])
   }
   return { area: piece.layout.area, from: piece.from, to: piece.to, members: [piece] }
 }

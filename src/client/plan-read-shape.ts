@@ -6,6 +6,7 @@ import { commands } from '../melsec/commands/commands'
 import { explainEndCode } from '../melsec/end-code'
 import { limitsOf } from '../melsec/limit'
 import type { ClientProtocol } from '../melsec/protocol'
+import { about } from './about'
 import type { ParsedItem, RefusedItem } from './item'
 import type { Run } from './plan-chunk'
 import { Areas, type Piece, pieceOf, piecesOf, readLayout } from './plan-layout'
@@ -98,7 +99,7 @@ export class ReadShape<Head> {
       return pieces
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
-      this.errors.set(index, about(item, error))
+      this.errors.set(index, about(error, [{ item: item.text }]))
       return []
     }
   }
@@ -257,9 +258,4 @@ function alone(piece: Piece): Draft {
   const { area } = piece.layout
   const run: Run = { area, from: piece.from, to: piece.to, members: [piece] }
   return area.ways.direct === undefined ? { kind: 'random', runs: [run] } : { kind: 'direct', run }
-}
-
-/** The error with the item in front, unless it names it already. */
-export function about({ text }: ParsedItem, error: RequestError): RequestError {
-  return error.message.includes(text) ? error : new RequestError(error.code, `${text}: ${error.message}`, text)
 }

@@ -8,6 +8,7 @@
 import { EndCodeError, PlcError, type RequestError } from '../errors'
 import type { ClientProtocol } from '../melsec/protocol'
 import type { PlcValue, Words } from '../value/value'
+import { about } from './about'
 import type { ParsedItem, RefusedItem } from './item'
 import { type Leaf, ReadShape, type ReadShapeOptions, type ReadStep } from './plan-read-shape'
 import { describePrepared, type PlanDescription, planText, type Send } from './plan-request'
@@ -182,7 +183,7 @@ class Run<Head> {
         this.#keep(place, step, valueAt(words, place))
       } catch (error) {
         if (!(error instanceof PlcError)) throw error
-        this.#errors[item] = error
+        this.#errors[item] = about(error, [{ item: this.#texts[item] ?? '' }])
       }
     }
   }
@@ -203,14 +204,19 @@ class Run<Head> {
 
   /** Gives the items an error that says nothing about them. */
   give(step: ReadStep<Head>, error: PlcError): Leaf<Head> {
-    this.fail(step, error)
+    this.#set(step, () => error)
     return { step, outcome: 'lost' }
   }
 
-  fail(step: ReadStep<Head>, error: PlcError): void {
+  /** Gives each item the refusal that may be about it. */
+  fail(step: ReadStep<Head>, refusal: EndCodeError): void {
+    this.#set(step, (item) => about(refusal, [{ item }]))
+  }
+
+  #set(step: ReadStep<Head>, errorOf: (item: string) => PlcError): void {
     const timestamp = this.#now()
     for (const { item } of step.pieces) {
-      this.#errors[item] = error
+      this.#errors[item] = errorOf(this.#texts[item] ?? '')
       this.#timestamps[item] = timestamp
     }
   }

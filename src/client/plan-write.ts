@@ -4,10 +4,11 @@
  */
 import { ClosedError, EndCodeError, PlcError, RequestError } from '../errors'
 import { explainEndCode } from '../melsec/end-code'
+import type { Profile } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
+import { about } from './about'
 import type { ParsedItem, RefusedItem } from './item'
 import { Areas } from './plan-layout'
-import { about } from './plan-read-shape'
 import { describePrepared, type PlanDescription, planText, type Send } from './plan-request'
 import { alone, batchesOf } from './plan-write-batch'
 import { prepareWrite, type WriteContext, type WriteStep } from './plan-write-request'
@@ -87,7 +88,7 @@ export class WritePlan<Head> {
       return units
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
-      this.#errors.set(index, about(item, error))
+      this.#errors.set(index, about(error, [{ item: item.text }]))
       return []
     }
   }
@@ -120,7 +121,12 @@ export class WritePlan<Head> {
    * @returns a result for each entry, in their order; it rejects only with what is no `PlcError`, which is a bug
    */
   async run(send: Send<Head>): Promise<WriteResult[]> {
-    const run = new Run<Head>(this.#entries, this.#errors, this.#options.allOrNothing === true)
+    const run = new Run<Head>(
+      this.#entries,
+      this.#errors,
+      this.#options.allOrNothing === true,
+      this.#context.protocol.profile,
+    )
     for (const step of this.#steps) {
       const refusal = await run.attempt(step, send)
       if (refusal === undefined) continue
@@ -185,12 +191,19 @@ class Run<Head> {
   readonly #entries: readonly WriteEntry[]
   readonly #errors: Map<number, PlcError>
   readonly #allOrNothing: boolean
+  readonly #profile: Profile
   /** Values of each entry that were written. */
   readonly #written = new Map<number, number>()
   /** Why nothing more is sent. */
   #stopped: PlcError | undefined
 
-  constructor(entries: readonly WriteEntry[], errors: ReadonlyMap<number, PlcError>, allOrNothing: boolean) {
+  constructor(
+    entries: readonly WriteEntry[],
+    errors: ReadonlyMap<number, PlcError>,
+    allOrNothing: boolean,
+    profile: Profile,
+  ) {
+    this.#profile = profile
     this.#entries = entries
     this.#errors = new Map(errors)
     this.#allOrNothing = allOrNothing
@@ -225,7 +238,23 @@ class Run<Head> {
 
   fail(step: WriteStep<Head>, error: PlcError): void {
     if (this.#allOrNothing) this.#stopped ??= error
-    for (const { entry } of step.units) this.#set(entry, error)
+    const entries = [...new Set(step.units.map(({ entry }) => entry))]
+    const likely = [...entries].sort((a, b) => Number(this.#isBeyond(b)) - Number(this.#isBeyond(a)))
+    const told = isAboutItems(error)
+      ? about(
+          error,
+          likely.map((entry) => ({ item: this.#text(entry) })),
+        )
+      : error
+    for (const entry of entries) this.#set(entry, told)
+  }
+
+  /** Whether a usual CPU of the family has no such device: of items that are refused together it is named first. */
+  #isBeyond(entry: number): boolean {
+    const item = this.#entries[entry]?.item
+    if (item === undefined || 'error' in item || item.address.extension !== undefined) return false
+    const points = this.#profile.ranges.points[item.address.device]
+    return points !== undefined && item.address.number >= points
   }
 
   #notSent(step: WriteStep<Head>, cause: PlcError): void {
@@ -251,6 +280,11 @@ class Run<Head> {
       return error === undefined ? { item: item.text, ok: true } : { item: item.text, ok: false, error }
     })
   }
+}
+
+/** The PLC refuses what is written; that a request is not permitted is about none of its items. */
+function isAboutItems(error: PlcError): boolean {
+  return error instanceof EndCodeError
 }
 
 /** A refusal in the middle of an array: the PLC was changed, so `refused` or `notSent` would be a lie. */

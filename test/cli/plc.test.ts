@@ -298,7 +298,7 @@ describe('write', () => {
     const lines = ended.err.trim().split('\n')
     expect(lines).toEqual([
       'D0: not written: sent together with D99999, and the PLC does not say which it refuses.',
-      expect.stringMatching(/^Write Random .* 4031: /),
+      expect.stringMatching(/: Write Random .* 4031: /),
       'D99999: not written: sent together with D0, and the PLC does not say which it refuses.',
     ])
     expect(plc.read('D0')).toBe(0)

@@ -190,6 +190,13 @@ describe('quality', () => {
 describe('when some items fail', () => {
   const mixed = { level: 'D100:REAL', beyond: REFUSED, running: 'M10' }
 
+  test('the message begins with the name and the address of the row', async () => {
+    await red.deploy([connectionTo(plc), readNode(mixed), catchNode()])
+    expect((await caught()).error.message).toMatch(/^PlcError: beyond \(D99999\): /)
+    await red.deploy([connectionTo(plc), readNode({ level: 'D100~D109' }), catchNode()])
+    expect((await caught()).error.message).toMatch(/^PlcError: level \(D100~D109\): a range/)
+  })
+
   test('nothing is sent, and Catch gets code, outcome, end code and every item', async () => {
     plc.faults.add({ kind: 'endCode', endCode: 0xc056 })
     await red.deploy([connectionTo(plc), readNode(['D100']), catchNode()])

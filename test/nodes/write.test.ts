@@ -147,6 +147,19 @@ describe('writing', () => {
     await red.status('write', { text: 'end code 4031' })
   })
 
+  test('refused together: the rows are named, the one that is beyond the devices of the CPU first', async () => {
+    const rows = [
+      { name: 'ok', address: 'D114' },
+      { name: 'beyond', address: 'D99999' },
+    ]
+    await red.deploy([writable(), writeNode({ items: rows }), catchNode()])
+    const { error } = await caught('write', { payload: { ok: 1, beyond: 2 } })
+    expect(error.message).toMatch(/^PlcError: beyond \(D99999\), ok \(D114\), written together/)
+    expect((await caught('write', { payload: { beyond: 70000 } })).error.message).toMatch(
+      /^PlcError: beyond \(D99999\): /,
+    )
+  })
+
   test('of unknown outcome is said so and never repeated', async () => {
     let writes = 0
     const ended = plc.on('write', () => {
