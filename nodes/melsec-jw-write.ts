@@ -27,7 +27,7 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
     const given = await entriesFor(message)
     const client = connection.clientFor('write')
     const entries = await fittingEntries(client, given, convert)
-    const written = await client.write(entries, { readModifyWrite, allOrNothing: true })
+    const written = await client.writeEach(entries, { readModifyWrite, allOrNothing: true })
     const results = nameResults(
       written,
       entries.map(({ name }) => name),

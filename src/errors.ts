@@ -41,9 +41,10 @@ export type ConnectionErrorCode =
   | 'PORT_UNAVAILABLE' // the local port or serial port is taken
   | 'SILENT' // connected, but nothing answers
   | 'OFFLINE' // failing fast while the connection is being restored
-export type ClosedErrorCode = 'CLOSED' | 'ABORTED' | 'QUEUE_FULL'
+export type ClosedErrorCode = 'CLOSED' | 'ABORTED' | 'QUEUE_FULL' | 'OVERLOADED'
 export type VerifyErrorCode = 'NOT_VERIFIED'
 export type UnfinishedErrorCode = 'UNFINISHED'
+export type WriteErrorCode = 'NOT_ALL_WRITTEN'
 export type PlcErrorCode =
   | RequestErrorCode
   | EndCodeErrorCode
@@ -53,6 +54,7 @@ export type PlcErrorCode =
   | ClosedErrorCode
   | VerifyErrorCode
   | UnfinishedErrorCode
+  | WriteErrorCode
 
 const BRAND = 'melsec-jw.error'
 
@@ -220,6 +222,28 @@ export class UnfinishedError extends PlcError {
   readonly outcome = 'unknown'
   constructor(message: string, cause: unknown) {
     super('UnfinishedError', message, cause)
+  }
+}
+
+/** What became of one item of a write. `error.outcome` says whether the PLC may have been changed. */
+export type WriteResult =
+  | { readonly item: string; readonly ok: true }
+  | { readonly item: string; readonly ok: false; readonly error: PlcError }
+
+/**
+ * A write of several items of which one or more were not written. `results` say what became of each, in their order;
+ * `cause` is the error that matters most. The outcome is about the whole: `notSent` and `refused` when nothing at all was
+ * written, `unknown` when something was, or may have been.
+ */
+export class WriteError extends PlcError {
+  readonly code = 'NOT_ALL_WRITTEN'
+  constructor(
+    message: string,
+    readonly outcome: Outcome,
+    readonly results: readonly WriteResult[],
+    cause: PlcError,
+  ) {
+    super('WriteError', message, cause)
   }
 }
 

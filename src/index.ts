@@ -4,8 +4,30 @@
 export { headOfError, nameResults } from './client/about'
 export type { BufferMemory } from './client/buffer-memory'
 export type { CallOptions } from './client/call'
+export type {
+  ClientEvents,
+  Items,
+  ItemValue,
+  NumberArray,
+  OnDemand,
+  ReadPlan,
+  ReadValue,
+  UnsolicitedFrame,
+  WriteEntry,
+  WritePlan,
+  WriteValue,
+  WriteValues,
+} from './client/client-types'
 export type { ConnectionState } from './client/connection'
-export type { ClearMode, Control, Identity, PauseOptions, RunOptions, StopOptions } from './client/control'
+export type {
+  ClearMode,
+  Control,
+  Identity,
+  LatchClearOptions,
+  PauseOptions,
+  RunOptions,
+  StopOptions,
+} from './client/control'
 export type {
   CopyOptions,
   FileData,
@@ -28,18 +50,7 @@ export type {
   LabelValue,
   LabelWriteResult,
 } from './client/labels'
-export {
-  type ClientEvents,
-  createMelsecClient,
-  type ItemValue,
-  MelsecClient,
-  type OnDemand,
-  type ReadPlan,
-  type ReadValue,
-  type UnsolicitedFrame,
-  type WriteEntry,
-  type WritePlan,
-} from './client/melsec-client'
+export { createMelsecClient, MelsecClient } from './client/melsec-client'
 export type { Monitor } from './client/monitor'
 export type { RequestExplanation } from './client/named-request'
 export type { MelsecClientOptions } from './client/options'
@@ -56,7 +67,6 @@ export {
   type RequestDescription,
   tryParseItem,
   type WriteOptions,
-  type WriteResult,
 } from './client/plan'
 export type { RoundTrip, Statistics } from './client/statistics'
 export type { ConnectionStateName } from './client/supervisor'
@@ -75,6 +85,8 @@ export {
   TimeoutError,
   UnfinishedError,
   VerifyError,
+  WriteError,
+  type WriteResult,
 } from './errors'
 export { explainJwFrame } from './jw/explain-frame'
 export { type ACompatibleCommandName, type ACompatibleCommands, aCompatibleCommands } from './melsec/a-compatible'

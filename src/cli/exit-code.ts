@@ -3,12 +3,14 @@ import {
   ClosedError,
   ConnectionError,
   EndCodeError,
+  type PlanDescription,
   PlcError,
   ProtocolError,
   RequestError,
   TimeoutError,
   UnfinishedError,
   VerifyError,
+  WriteError,
 } from '../index'
 
 /** Exit codes with their meaning. */
@@ -31,7 +33,7 @@ export function exitOf(error: PlcError): number {
   if (error instanceof ClosedError && error.cause instanceof PlcError) return exitOf(error.cause)
   if (error instanceof RequestError) return exitCodes.usage.code
   if (error instanceof EndCodeError) return exitCodes.refused.code
-  if (error instanceof UnfinishedError) return exitCodes.partly.code
+  if (error instanceof UnfinishedError || error instanceof WriteError) return exitCodes.partly.code
   if (error instanceof VerifyError) return exitCodes.notVerified.code
   if (error instanceof ProtocolError) return exitCodes.protocol.code
   if (error instanceof ConnectionError || error instanceof TimeoutError || error instanceof ClosedError) {
@@ -48,6 +50,12 @@ export function exitOfResults(
   const [first] = errors
   if (first === undefined) return exitCodes.ok.code
   return errors.length < results.length ? exitCodes.partly.code : exitOf(first)
+}
+
+/** The exit code of a plan that is only shown: nothing is sent, and an item of no request would not be either. */
+export function exitOfPlan({ requests }: PlanDescription, items: readonly string[]): number {
+  const planned = new Set(requests.flatMap((request) => request.items))
+  return items.every((item) => planned.has(item)) ? exitCodes.ok.code : exitCodes.usage.code
 }
 
 /** For the help. */

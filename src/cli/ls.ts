@@ -1,4 +1,4 @@
-import { createMelsecClient, type FileEntry, formatFileTime, isFileTime } from '../index'
+import { createMelsecClient, type FileEntry, formatFileTime, isFileTime, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, clientOptions, peerText, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
@@ -26,8 +26,10 @@ export const lsCommand: MakeCommand = (run) => {
 
 async function drives(terminal: Terminal, options: ConnectionOptions): Promise<number> {
   const { files, profile } = createMelsecClient(clientOptions(options))
+  if (files.drives.length === 0) {
+    throw new RequestError('UNSUPPORTED', `The files of ${profile.title} cannot be reached by SLMP.`, 'profile')
+  }
   if (options.json === true) terminal.out(json({ profile: profile.id, drives: files.drives }))
-  else if (files.drives.length === 0) terminal.out(`The files of ${profile.title} cannot be reached by SLMP.`)
   else terminal.out(table(files.drives.map(({ number, title }) => [`${number}:`, title])))
   return exitCodes.ok.code
 }

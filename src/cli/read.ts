@@ -8,7 +8,7 @@ import {
   type FormatOptions,
   withClient,
 } from './connection-options'
-import { exitCodes, exitOfResults } from './exit-code'
+import { exitOfPlan, exitOfResults } from './exit-code'
 import { errorData, itemErrorText, json, planText, table, valueText } from './output'
 import type { Terminal } from './terminal'
 
@@ -41,9 +41,9 @@ export const readCommand: MakeCommand = (run) => {
 
 async function read(terminal: Terminal, items: readonly string[], options: ReadOptions): Promise<number> {
   if (options.plan === true) {
-    const plan = createMelsecClient(clientOptions(options)).plan(items)
-    terminal.out(planText(plan.describe(), options.json === true))
-    return exitCodes.ok.code
+    const plan = createMelsecClient(clientOptions(options)).plan(items).describe()
+    terminal.out(planText(plan, options.json === true))
+    return exitOfPlan(plan, items)
   }
   const { results, explanations } = await withClient(terminal, options, {}, async (client) => ({
     results: await client.read(items),

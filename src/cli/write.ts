@@ -19,7 +19,7 @@ import {
   peerText,
   withClient,
 } from './connection-options'
-import { exitCodes, exitOfResults } from './exit-code'
+import { exitOfPlan, exitOfResults } from './exit-code'
 import { errorData, errorText, itemErrorText, json, planText, table, valueText } from './output'
 import { refusalOf, type Terminal } from './terminal'
 import { typedValue } from './typed-value'
@@ -74,9 +74,12 @@ async function write(terminal: Terminal, texts: readonly string[], options: Writ
   const checking = createMelsecClient(clientOptions(options))
   const typed = texts.map((text) => typedOf(checking, text))
   if (options.plan === true) {
-    const plan = checking.planWrite(typed.map(plannedEntry), how(options))
-    terminal.out(planText(plan.describe(), options.json === true))
-    return exitCodes.ok.code
+    const plan = checking.planWrite(typed.map(plannedEntry), how(options)).describe()
+    terminal.out(planText(plan, options.json === true))
+    return exitOfPlan(
+      plan,
+      typed.map(({ item }) => item),
+    )
   }
   const assignments = typed.every(isComplete) ? typed.map(deviceAssignment) : undefined
   // Devices are understood before anybody is asked or connected. Of labels only the PLC knows the types.
@@ -84,7 +87,7 @@ async function write(terminal: Terminal, texts: readonly string[], options: Writ
   return withClient(terminal, options, { allowWrites: true }, async (client) => {
     const all = assignments ?? (await assignmentsOf(client, typed))
     if (assignments === undefined) await confirm(terminal, client, all, options)
-    const results = await client.write(entriesOf(all), how(options))
+    const results = await client.writeEach(entriesOf(all), how(options))
     show(terminal, options, all, results)
     return exitOfResults(results)
   })

@@ -3,7 +3,9 @@ import { RequestError } from '../errors'
 import { commands } from '../melsec/commands/commands'
 import { byteAddressOf, type ExtendUnit } from '../melsec/extend-unit'
 import type { CallOptions } from './call'
+import type { NumberArray } from './client-types'
 import type { Send } from './control'
+import { isTyped } from './results'
 
 /** Words of a buffer memory, 0 to 65535 each. */
 export interface BufferMemory {
@@ -13,7 +15,7 @@ export interface BufferMemory {
    */
   read(address: number, points: number, options?: CallOptions): Promise<number[]>
   /** Writes words, in one request. Needs `allowWrites`. */
-  write(address: number, values: readonly number[], options?: CallOptions): Promise<void>
+  write(address: number, values: readonly number[] | NumberArray, options?: CallOptions): Promise<void>
 }
 
 /** The connected module's own. */
@@ -23,7 +25,7 @@ export function memoryOf(send: Send): BufferMemory {
       return [...(await send(commands.readMemory, { address, points }, options)).values]
     },
     write: async (address, values, options) => {
-      await send(commands.writeMemory, { address, values }, options)
+      await send(commands.writeMemory, { address, values: wordsGiven(values) }, options)
     },
   }
 }
@@ -37,7 +39,7 @@ export function moduleOf(send: Send, unit: ExtendUnit): BufferMemory {
       return wordsOf((await send(commands.readExtendUnit, message, options)).data)
     },
     write: async (address, values, options) => {
-      const message = { address: byteAddressOf(unit, address), moduleNumber, data: bytesOf(values) }
+      const message = { address: byteAddressOf(unit, address), moduleNumber, data: bytesOf(wordsGiven(values)) }
       await send(commands.writeExtendUnit, message, options)
     },
   }
@@ -45,6 +47,11 @@ export function moduleOf(send: Send, unit: ExtendUnit): BufferMemory {
 
 function wordsOf(bytes: Uint8Array): number[] {
   return Array.from({ length: bytes.length / 2 }, (_, i) => (bytes[2 * i] ?? 0) | ((bytes[2 * i + 1] ?? 0) << 8))
+}
+
+/** Their elements are checked as those of any array: what is no word is refused. */
+function wordsGiven(values: readonly number[] | NumberArray): readonly number[] {
+  return isTyped(values) ? Array.from<number | bigint, number>(values, Number) : values
 }
 
 /** Low byte first, in ASCII code too. @throws RequestError BAD_VALUE */

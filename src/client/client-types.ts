@@ -66,11 +66,34 @@ export interface OnDemand {
   readonly timestamp: number
 }
 
+/** A typed array, as a value of an array of numbers. */
+export type NumberArray =
+  | Int8Array
+  | Uint8Array
+  | Uint8ClampedArray
+  | Int16Array
+  | Uint16Array
+  | Int32Array
+  | Uint32Array
+  | Float32Array
+  | Float64Array
+  | BigInt64Array
+  | BigUint64Array
+
+/** A value for an item without a count or range, or an array, also a typed one, for one with. */
+export type WriteValue = PlcValue | readonly PlcValue[] | NumberArray
+
+/** Items to read: a list, or an object by name. */
+export type Items = readonly Item[] | Readonly<Record<string, Item>>
+
 /** One value to write. */
 export interface WriteEntry {
   readonly item: Item
-  readonly value: ReadValue
+  readonly value: WriteValue
 }
+
+/** Values to write: a list of entries, or an object by address. */
+export type WriteValues = readonly WriteEntry[] | Readonly<Record<string, WriteValue>>
 
 /** A prepared read: run it again and again; nothing is parsed or encoded anew. */
 export interface ReadPlan {
@@ -83,8 +106,13 @@ export interface ReadPlan {
 
 /** A prepared write. */
 export interface WritePlan {
-  /** Writes all entries once, in their order. Needs `allowWrites`. */
-  run(options?: CallOptions): Promise<WriteResult[]>
+  /**
+   * Writes all entries once, in their order. Needs `allowWrites`.
+   * @throws WriteError when anything was not written
+   */
+  run(options?: CallOptions): Promise<void>
+  /** As `run`, with a result for each entry instead of an error. Look at each of them. */
+  runEach(options?: CallOptions): Promise<WriteResult[]>
   describe(): PlanDescription
   toString(): string
 }

@@ -1,7 +1,7 @@
 // One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
 // It knows no protocol family; Exchange and Framing bring that.
 import type { ConnectionError, PlcError } from '../errors'
-import { type Echo, type Exchange, Fence, type ResponseFrame, SerialNumbers } from '../link/link'
+import { type Echo, type Exchange, Fence, type ResponseFrame, RoundTrips, SerialNumbers } from '../link/link'
 import type { Clock } from '../transport/clock'
 import { Alarm } from './alarm'
 import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
@@ -51,6 +51,7 @@ export class Connection<Head> {
       counters: this.#counters,
       serials: new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000)),
       fence: new Fence(framing, { ask: proof, patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT) }),
+      roundTrips: new RoundTrips(),
       verified: (answered) => this.#verified(answered),
       proved: () => {
         this.#answeredBefore = true
@@ -143,9 +144,9 @@ export class Connection<Head> {
       settle.fail(refusal)
       return
     }
-    const { timeout = usual, signal, onlyOn } = options
+    const { timeout = usual, signal, onlyOn, caller } = options
     const now = this.#clock.now()
-    const call = new Call(exchange, now + timeout, settle, sends, onlyOn)
+    const call = new Call(exchange, now + timeout, settle, { sends, onlyOn, allowance: timeout, caller })
     if (sends) this.#counters.add('requests')
     if (signal !== undefined) {
       call.abortedBy(

@@ -8,7 +8,7 @@ import { modelOf } from '../melsec/model-code'
 import type { Profile, ProfileId } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
 import type { Clock } from '../transport/clock'
-import type { CallOptions } from './call'
+import { type CallOptions, callOptionsOf, type OptionNames } from './call'
 import { Deadline } from './deadline'
 import { checkBooleans, shown } from './given'
 import { type CpuStateName, statusOf, verify } from './verify'
@@ -44,6 +44,16 @@ export interface PauseOptions extends StopOptions {
   readonly force?: boolean
 }
 
+export interface LatchClearOptions extends CallOptions {
+  /** The field some manuals print as 0 (FX5); default 1. */
+  readonly value?: 0 | 1
+}
+
+const STOP_OPTIONS: OptionNames<Omit<StopOptions, keyof CallOptions>> = { verify: true }
+const RUN_OPTIONS: OptionNames<Omit<RunOptions, keyof CallOptions>> = { force: true, clear: true, verify: true }
+const PAUSE_OPTIONS: OptionNames<Omit<PauseOptions, keyof CallOptions>> = { force: true, verify: true }
+const LATCH_CLEAR_OPTIONS: OptionNames<Omit<LatchClearOptions, keyof CallOptions>> = { value: true }
+
 /**
  * Remote control (SLMP reference manual 5.6). Every call needs `allowControl` and is never repeated.
  * The PLC forgets the remote state when it is powered off or reset.
@@ -63,8 +73,8 @@ export interface Control {
   stop(options?: StopOptions): Promise<void>
   /** Remote PAUSE: the program stops, outputs are held. `verify` as of `run`. */
   pause(options?: PauseOptions): Promise<void>
-  /** Clears the latched devices; the CPU must be in STOP. `value`: the field some manuals print as 0 (FX5); default 1. */
-  latchClear(options?: CallOptions & { readonly value?: 0 | 1 }): Promise<void>
+  /** Clears the latched devices; the CPU must be in STOP. */
+  latchClear(options?: LatchClearOptions): Promise<void>
   /** Resets the CPU, which must be in STOP and permit it by parameter. Silence and a lost connection are its success. */
   reset(options?: CallOptions): Promise<void>
 }
@@ -98,7 +108,8 @@ export function controlOf(parts: ControlParts): Control {
   const verified = async (
     wanted: CpuStateName,
     { title }: Command,
-    { verify: wants, ...call }: StopOptions,
+    wants: boolean | undefined,
+    call: CallOptions,
     act: (options: CallOptions) => Promise<unknown>,
   ): Promise<void> => {
     if (wants !== true) {
@@ -113,8 +124,9 @@ export function controlOf(parts: ControlParts): Control {
   return {
     verifiable: profile.remote.status !== undefined,
     run: async (options = {}) => {
+      const call = callOptionsOf(options, RUN_OPTIONS)
       checkBooleans(options, ['force', 'verify'])
-      const { force, clear = 'keep', ...call } = options
+      const { force, verify, clear = 'keep' } = options
       if (typeof clear !== 'string' || !Object.hasOwn(CLEAR_MODES, clear)) {
         const modes = Object.keys(CLEAR_MODES).join(', ')
         throw new RequestError('BAD_OPTION', `clear is ${shown(clear)}; it must be one of ${modes}.`, 'clear')
@@ -128,21 +140,23 @@ export function controlOf(parts: ControlParts): Control {
         )
       }
       const message = { mode: mode(force), clearMode } as const
-      await verified('RUN', commands.remoteRun, call, (rest) => send(commands.remoteRun, message, rest))
+      await verified('RUN', commands.remoteRun, verify, call, (rest) => send(commands.remoteRun, message, rest))
     },
     stop: async (options = {}) => {
+      const call = callOptionsOf(options, STOP_OPTIONS)
       checkBooleans(options, ['verify'])
-      await verified('STOP', commands.remoteStop, options, (call) => send(commands.remoteStop, {}, call))
+      await verified('STOP', commands.remoteStop, options.verify, call, (rest) => send(commands.remoteStop, {}, rest))
     },
     pause: async (options = {}) => {
+      const call = callOptionsOf(options, PAUSE_OPTIONS)
       checkBooleans(options, ['force', 'verify'])
-      const { force, ...call } = options
+      const { force, verify } = options
       const message = { mode: mode(force) } as const
-      await verified('PAUSE', commands.remotePause, call, (rest) => send(commands.remotePause, message, rest))
+      await verified('PAUSE', commands.remotePause, verify, call, (rest) => send(commands.remotePause, message, rest))
     },
     latchClear: async (options = {}) => {
-      checkBooleans(options, [])
-      const { value, ...call } = options
+      const call = callOptionsOf(options, LATCH_CLEAR_OPTIONS)
+      const { value } = options
       await send(commands.remoteLatchClear, value === undefined ? {} : { fixed: value }, call)
     },
     reset: async (call = {}) => {

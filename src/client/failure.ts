@@ -78,6 +78,17 @@ export function closedByPeer(peer: string, receivedAnything: boolean, asked: rea
   return new ConnectionError('ENTRY_BUSY', message)
 }
 
+/** More is asked than the PLC answers: sent now, it would expire in flight, and perhaps take the connection with it. */
+export function overloaded(title: string, waiting: number, roundTrip: number | undefined): ClosedError {
+  const others = waiting > 1 ? `${waiting} requests wait` : 'its time was used up by waiting'
+  const each =
+    roundTrip === undefined ? '' : `, and the PLC needs about ${Math.max(1, Math.round(roundTrip))} ms for each`
+  const message =
+    `${title} was not sent, because its answer would come after its deadline: ${others}${each}. ` +
+    'Ask less often, read more by one request, or raise the timeout.'
+  return new ClosedError('OVERLOADED', message)
+}
+
 /** What helps with a device that meets the client's own request with closing: it was asked nothing else. */
 function otherProbe(asked: readonly string[]): string {
   if (asked.length === 0) return ''

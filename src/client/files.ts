@@ -4,12 +4,12 @@ import { RequestError } from '../errors'
 import { commands } from '../melsec/commands/commands'
 import type { FileTime } from '../melsec/file-time'
 import type { Drive, Profile } from '../melsec/profile'
-import { type CallOptions, optionProblem } from './call'
+import { type CallOptions, callOptionsOf, type OptionNames } from './call'
 import { type FileEntry, listDirectory, statOf } from './file-list'
 import { type FilePath, type FilePlace, fileOf, filePlaceOf } from './file-place'
 import { type FileProgress, readChunks } from './file-read'
 import { contentOf, copyFile, type FileData, type WriteMode, writeFile } from './file-write'
-import { checkBooleans, shown } from './given'
+import { shown } from './given'
 import type { FileCalls, OpenFile } from './open-file'
 
 export type { FileEntry } from './file-list'
@@ -111,6 +111,14 @@ const LARGEST = 64 * 1024 * 1024
 /** Values of Change File State. */
 const ATTRIBUTES = { readOnly: 0x01, readWrite: 0x20 } as const
 
+/** Options that only calls about files have. */
+type Own<Options> = OptionNames<Omit<Options, keyof CallOptions>>
+const FILE_OPTIONS: Own<FileOptions> = { password: true }
+const STREAM_OPTIONS: Own<Omit<FileReadOptions, 'limit'>> = { ...FILE_OPTIONS, onProgress: true }
+const READ_OPTIONS: Own<FileReadOptions> = { ...STREAM_OPTIONS, limit: true }
+const WRITE_OPTIONS: Own<FileWriteOptions> = { ...FILE_OPTIONS, onProgress: true, mode: true, size: true }
+const COPY_OPTIONS: Own<CopyOptions> = { ...FILE_OPTIONS, destinationPassword: true }
+
 /** What is the same for every call about one file. */
 interface Begun {
   readonly calls: FileCalls
@@ -130,27 +138,32 @@ export class FileAccess implements Files {
   }
 
   async list(directory: FilePath, options: CallOptions = {}): Promise<FileEntry[]> {
-    checkBooleans(options, [])
-    return listDirectory(this.#parts.calls(options), filePlaceOf(directory, this.#parts.profile))
+    const calls = this.#parts.calls(callOptionsOf(options))
+    return listDirectory(calls, filePlaceOf(directory, this.#parts.profile))
   }
 
   async stat(file: FilePath, options: CallOptions = {}): Promise<FileEntry | undefined> {
-    checkBooleans(options, [])
-    return statOf(this.#parts.calls(options), fileOf(file, this.#parts.profile))
+    const calls = this.#parts.calls(callOptionsOf(options))
+    return statOf(calls, fileOf(file, this.#parts.profile))
   }
 
   async read(file: FilePath, options: FileReadOptions = {}): Promise<Buffer> {
     const chunks: Buffer[] = []
-    for await (const chunk of this.#chunks(file, options, LARGEST)) chunks.push(chunk)
+    for await (const chunk of this.#chunks(file, options, READ_OPTIONS, LARGEST)) chunks.push(chunk)
     return Buffer.concat(chunks)
   }
 
   readStream(file: FilePath, options: Omit<FileReadOptions, 'limit'> = {}): Readable {
-    return Readable.from(this.#chunks(file, options, Number.POSITIVE_INFINITY), { objectMode: false })
+    return Readable.from(this.#chunks(file, options, STREAM_OPTIONS, Number.POSITIVE_INFINITY), { objectMode: false })
   }
 
-  #chunks(file: FilePath, options: FileReadOptions, largest: number): AsyncGenerator<Buffer> {
-    const { calls, place, password } = this.#begin(file, options)
+  #chunks(
+    file: FilePath,
+    options: FileReadOptions,
+    names: Readonly<Record<string, true>>,
+    largest: number,
+  ): AsyncGenerator<Buffer> {
+    const { calls, place, password } = this.#begin(file, options, names)
     this.#checkUsable()
     const { limit = largest, onProgress } = options
     if (!(typeof limit === 'number' && limit >= 0)) {
@@ -161,7 +174,7 @@ export class FileAccess implements Files {
 
   async write(file: FilePath, data: FileData, options: FileWriteOptions = {}): Promise<void> {
     this.#parts.permitWrite('Writing a file')
-    const { calls, place, password } = this.#begin(file, options)
+    const { calls, place, password } = this.#begin(file, options, WRITE_OPTIONS)
     this.#checkUsable()
     const { mode = 'new', size, onProgress } = options
     const content = contentOf(data, size)
@@ -169,7 +182,7 @@ export class FileAccess implements Files {
   }
 
   async copy(from: FilePath, to: FilePath, options: CopyOptions = {}): Promise<void> {
-    const { calls, place, password } = this.#begin(from, options)
+    const { calls, place, password } = this.#begin(from, options, COPY_OPTIONS)
     const { destinationPassword = password } = options
     checkPassword(destinationPassword, 'destinationPassword')
     const destination = fileOf(to, this.#parts.profile)
@@ -177,12 +190,12 @@ export class FileAccess implements Files {
   }
 
   async remove(file: FilePath, options: FileOptions = {}): Promise<void> {
-    const { calls, place, password } = this.#begin(file, options)
+    const { calls, place, password } = this.#begin(file, options, FILE_OPTIONS)
     await calls.send(commands.deleteFile, { password, drive: place.drive, name: place.path })
   }
 
   async setAttribute(file: FilePath, attribute: 'readOnly' | 'readWrite', options: FileOptions = {}): Promise<void> {
-    const { calls, place, password } = this.#begin(file, options)
+    const { calls, place, password } = this.#begin(file, options, FILE_OPTIONS)
     if (typeof attribute !== 'string' || !Object.hasOwn(ATTRIBUTES, attribute)) {
       const known = Object.keys(ATTRIBUTES).join(' or ')
       throw new RequestError('BAD_VALUE', `The attribute is ${shown(attribute)}; it is ${known}.`, 'attribute')
@@ -192,20 +205,18 @@ export class FileAccess implements Files {
   }
 
   async setDate(file: FilePath, date: FileTime, options: CallOptions = {}): Promise<void> {
-    const { calls, place } = this.#begin(file, options)
+    const { calls, place } = this.#begin(file, options, {})
     await calls.send(commands.changeFileDate, { drive: place.drive, name: place.path, date })
   }
 
   async closeAll(options: CallOptions = {}): Promise<void> {
-    checkBooleans(options, [])
     // What cannot be sent must not end the transfers, whose files would stay locked.
-    const problem = optionProblem(options)
-    if (problem !== undefined) throw problem
+    const call = callOptionsOf(options)
     // The next file that is opened gets the pointer of one of these, and must not get what is written to it.
     this.#parts.closings.count++
     for (const file of this.#parts.open) file.leave()
     // With this close type the number of the pointer does not matter.
-    await this.#parts.calls(options).send(commands.closeFile, { pointer: 0, closeType: 1 })
+    await this.#parts.calls(call).send(commands.closeFile, { pointer: 0, closeType: 1 })
   }
 
   /** Before the client is closed: what is open would stay locked in the PLC. Undefined when nothing is. */
@@ -215,13 +226,11 @@ export class FileAccess implements Files {
     return open.size === 0 ? undefined : Promise.allSettled([...open].map((file) => file.close()))
   }
 
-  #begin(file: FilePath, options: FileOptions): Begun {
-    checkBooleans(options, [])
-    const { password = '', timeout, signal } = options
+  #begin(file: FilePath, options: FileOptions, names: Readonly<Record<string, true>>): Begun {
+    const calls = this.#parts.calls(callOptionsOf(options, names))
+    const { password = '' } = options
     checkPassword(password, 'password')
-    const place = fileOf(file, this.#parts.profile)
-    const call = { ...(timeout === undefined ? {} : { timeout }), ...(signal === undefined ? {} : { signal }) }
-    return { place, password, calls: this.#parts.calls(call) }
+    return { calls, password, place: fileOf(file, this.#parts.profile) }
   }
 
   #checkUsable(): void {

@@ -39,7 +39,10 @@ export function namesOf(given: object, what: string): readonly string[] {
   throw new RequestError('BAD_ADDRESS', `${what}, not ${shown(given)}.`)
 }
 
-/** As `namesOf`, of items to read: `{ address: 5 }` is meant as an item and not as a name for one. @throws RequestError */
+/**
+ * As `namesOf`, where one item may stand instead: `{ address: 5 }` is meant as an item and not as a name for one.
+ * @throws RequestError
+ */
 export function namesOfItems(given: object, what: string): readonly string[] {
   const names = namesOf(given, what)
   const { address }: { readonly address?: unknown } = given
@@ -47,11 +50,31 @@ export function namesOfItems(given: object, what: string): readonly string[] {
   throw badAddress(address)
 }
 
+/**
+ * A misspelt option would be the usual one, without anybody noticing.
+ * @param prefix where the options stand: `''`, or e.g. `reconnect.`
+ * @throws RequestError BAD_OPTION for a name that is not among them, and for what is no object
+ */
+export function checkNames(prefix: string, given: object, names: Readonly<Record<string, true>>): void {
+  const list = Object.keys(names).join(', ')
+  if (!isPlainObject(given)) {
+    const what = prefix === '' ? 'Options are' : `${prefix.slice(0, -1)} is`
+    throw new RequestError('BAD_OPTION', `${what} an object with ${list}; not ${shown(given)}.`)
+  }
+  for (const name of Object.keys(given)) {
+    if (Object.hasOwn(names, name)) continue
+    const field = `${prefix}${name}`
+    throw new RequestError('BAD_OPTION', `There is no option ${field}: use ${list}.`, field)
+  }
+}
+
 /** @throws RequestError BAD_OPTION when an option is there and no boolean */
-export function checkBooleans(given: object, names: readonly string[]): void {
-  if (!isPlainObject(given)) throw new RequestError('BAD_OPTION', `Options are an object, not ${shown(given)}.`)
+export function checkBooleans<Options extends object>(
+  given: Options,
+  names: readonly (keyof Options & string)[],
+): void {
   for (const name of names) {
-    const value = given[name]
+    const value: unknown = given[name]
     if (value === undefined || typeof value === 'boolean') continue
     throw new RequestError('BAD_OPTION', `${name} is ${shown(value)}; it must be true or false.`, name)
   }

@@ -5,9 +5,9 @@ import { longCounterHint, namedAsFx5 } from '../melsec/a-compatible-rules'
 import { commands } from '../melsec/commands/commands'
 import type { Head3e } from '../melsec/frame-3e'
 import type { ClientProtocol } from '../melsec/protocol'
-import type { CallOptions } from './call'
+import { type CallOptions, callOptionsOf, type OptionNames } from './call'
 import type { ReadPlan, WriteEntry, WritePlan } from './client-types'
-import { checkBooleans, isItem, listOf, shown } from './given'
+import { checkBooleans, checkNames, isItem, listOf, shown } from './given'
 import { explainLabel, type ItemExplanation } from './label-explain'
 import { type AnyItem, hasPrefix, isLabel, itemText, labelInstead, parsedLabel } from './label-in-items'
 import { randomMessage } from './label-request'
@@ -26,7 +26,10 @@ import {
   type WriteOptions,
   type WriteResult,
 } from './plan'
+import { checkAllWritten, valueGiven } from './results'
 import { refuseAmbiguousXy } from './xy-notation'
+
+const WRITE_OPTIONS: OptionNames<WriteOptions> = { readModifyWrite: true, allOrNothing: true }
 
 /** Plans of `read` that are kept. A program that reads ever new lists must not fill the memory with them. */
 const PREPARED_PLANS = 500
@@ -80,34 +83,44 @@ export class ItemAccess {
     }
   }
 
+  /** A result for each entry, in their order. */
   async write(
     entries: readonly WriteEntry[],
     options: (CallOptions & WriteOptions) | undefined,
   ): Promise<WriteResult[]> {
-    return this.planWrite(entries, options).run(options)
+    const call = callOptionsOf(options, WRITE_OPTIONS)
+    const { readModifyWrite, allOrNothing } = options ?? {}
+    const how = {
+      ...(readModifyWrite === undefined ? {} : { readModifyWrite }),
+      ...(allOrNothing === undefined ? {} : { allOrNothing }),
+    }
+    return this.planWrite(entries, how).runEach(call)
   }
 
   planWrite(entries: readonly WriteEntry[], options: WriteOptions = {}): WritePlan {
     const { settings, protocol, call, permit } = this.#parts
+    checkNames('', options, { ...WRITE_OPTIONS })
     checkBooleans(options, ['readModifyWrite', 'allOrNothing'])
     // An entry that is none is an item that is none.
     const parsed = listOf(entries, 'entries').map(
       (entry, index): MixedEntry => ({
         item: this.#listed(entry?.item, `entries[${index}].item`),
-        value: entry?.value,
+        value: valueGiven(entry?.value),
       }),
     )
     const all = { ...options, xyRadix: settings.xyRadix }
     const devices: readonly PlannedEntry[] = parsed.filter(isPlanned)
     const isMixed = devices.length < parsed.length
     const plan = isMixed ? new MixedWrite(parsed, this.#lender, all) : planWrite(devices, protocol, all)
+    const runEach = async (callOptions?: CallOptions) => {
+      // Before anything is sent, also the reading of a word that a bit is changed in, or of the type of a label.
+      permit('write', 'Writing')
+      const opened = call(callOptions)
+      return plan instanceof MixedWrite ? plan.run(opened) : plan.run(opened.send)
+    }
     return {
-      run: async (callOptions) => {
-        // Before anything is sent, also the reading of a word that a bit is changed in, or of the type of a label.
-        permit('write', 'Writing')
-        const opened = call(callOptions)
-        return plan instanceof MixedWrite ? plan.run(opened) : plan.run(opened.send)
-      },
+      run: async (callOptions) => checkAllWritten(await runEach(callOptions)),
+      runEach,
       describe: () => plan.describe(),
       toString: () => plan.toString(),
     }

@@ -173,7 +173,10 @@ export function checkedItem(item: Item): ItemOptions {
   const unknown = Object.keys(item).find((name) => !known.includes(name))
   if (unknown === undefined) return item
   const list = ITEM_FIELDS.join(', ')
-  throw new RequestError('BAD_OPTION', `${item.address}: an item has no ${JSON.stringify(unknown)}. It has ${list}.`)
+  throw new RequestError(
+    'BAD_OPTION',
+    `${item.address}: an item has no ${JSON.stringify(unknown)}. It has ${list}. If address is the name of an item among others, use readEach() or readValues().`,
+  )
 }
 
 interface Parts {

@@ -129,7 +129,8 @@ export function encodeLabel(
   format: LabelFormat,
 ): LabelContent {
   if (!isList(value)) return { data: wordsOf(type, value, code, format) }
-  const elements = value.map((one) => wordsOf(type, one, code, format))
+  // Not map(): it would pass over the holes of an array.
+  const elements = Array.from(value, (one) => wordsOf(type, one, code, format))
   const extent = extentOf(type, value.length)
   if (extent.length > 0xffff) {
     throw new RequestError('LIMIT_EXCEEDED', `${type.name}: ${value.length} elements are too many for one request.`)

@@ -2,14 +2,15 @@
 import { ClosedError, PlcError, RequestError } from '../errors'
 import { attemptFor, isFine } from './attempt'
 import { type AskedLabel, checkElements, type LabelFormat } from './label-item'
-import { type LabelValue, typeOf } from './label-read'
+import { typeOf } from './label-read'
 import type { LabelRequests, LabelWrite } from './label-request'
 import { encodeLabel } from './label-value'
+import type { WriteValue } from './plan'
 
 /** A label and what it is to hold. A list goes to an array from the element named on. */
 export interface LabelEntry {
   readonly asked: AskedLabel
-  readonly value: LabelValue
+  readonly value: WriteValue
 }
 
 /**
@@ -17,7 +18,7 @@ export interface LabelEntry {
  * @throws RequestError OUT_OF_RANGE for an empty list, BAD_ADDRESS when a list has no first element, BAD_VALUE when a
  *   count says otherwise
  */
-export function labelEntry(asked: AskedLabel, value: LabelValue): LabelEntry {
+export function labelEntry(asked: AskedLabel, value: WriteValue): LabelEntry {
   const { address, count, ...others } = asked
   const length = Array.isArray(value) ? value.length : undefined
   if (length !== undefined) checkElements(address, length)

@@ -1,12 +1,14 @@
 // Global labels by name: typed values out of the label commands, in as few requests as fit (SLMP reference manual 5.3).
 import type { PlcError } from '../errors'
 import { attempt, isFine } from './attempt'
-import type { CallOptions } from './call'
+import { type CallOptions, callOptionsOf, type OptionNames } from './call'
+import type { WriteValue } from './client-types'
 import { checkBooleans, listOf, namesOf } from './given'
 import { askedLabel, checkLabelFormat, type LabelFormat, type LabelItem, type LabelOptions } from './label-item'
 import { type LabelValue, readLabels } from './label-read'
 import { type LabelCall, LabelRequests } from './label-request'
 import { labelEntry, labelWrites } from './label-write'
+import { byName, checkAllWritten, valueGiven } from './results'
 
 export type { LabelFormat, LabelItem, LabelItemOptions, LabelOptions } from './label-item'
 export type { LabelValue } from './label-read'
@@ -35,7 +37,7 @@ export type LabelWriteResult =
  */
 export interface Labels {
   /**
-   * Reads one label: its value; throws what went wrong. Many: a result each.
+   * Reads one label: its value; throws what went wrong. Many: a result each, as `readEach` of the client.
    * @example await plc.labels.read('Line1.Speed')
    * @example await plc.labels.read(['Line1.Speed', { label: 'Line1.Values[0]', count: 10 }])
    */
@@ -45,12 +47,20 @@ export interface Labels {
    * Writes labels in the order given. Needs `allowWrites`. The data types are read before anything is written. A list
    * goes to an array from the element named on. A write whose outcome is unknown is never repeated, and what stands
    * behind it is not sent.
+   * @throws WriteError of many, when anything was not written; its `results` have each label as `item`
    * @example await plc.labels.write('Line1.Speed', 12.5)
    * @example await plc.labels.write({ 'Line1.Speed': 12.5, 'Line1.Values[0]': [1, 2, 3] })
    */
-  write(label: string, value: LabelValue, options?: LabelOptions): Promise<void>
-  write(values: Readonly<Record<string, LabelValue>>, options?: LabelOptions): Promise<Record<string, LabelWriteResult>>
+  write(label: string, value: WriteValue, options?: LabelOptions): Promise<void>
+  write(values: Readonly<Record<string, WriteValue>>, options?: LabelOptions): Promise<void>
+  /** Writes many as `write` does, with a result for each label instead of an error. Look at each of them. */
+  writeEach(
+    values: Readonly<Record<string, WriteValue>>,
+    options?: LabelOptions,
+  ): Promise<Record<string, LabelWriteResult>>
 }
+
+const LABEL_OPTIONS: OptionNames<LabelFormat> = { encoding: true, trim: true, asciiWordOrder: true }
 
 /** What the client lends. */
 export interface LabelParts {
@@ -88,12 +98,13 @@ class LabelAccess implements Labels {
 
   /** One call: its requests, and its options with the client's own behind them. @throws RequestError BAD_OPTION */
   #opened(options: LabelOptions): { readonly requests: LabelRequests; readonly format: LabelFormat } {
+    const call = callOptionsOf(options, LABEL_OPTIONS)
     checkBooleans(options, ['trim'])
     const { encoding, trim, asciiWordOrder } = options
     const own = { encoding, trim, asciiWordOrder }
     const given: LabelFormat = Object.fromEntries(Object.entries(own).filter(([, value]) => value !== undefined))
     checkLabelFormat(given)
-    return { requests: new LabelRequests(this.#parts.call(options)), format: { ...this.#parts.format, ...given } }
+    return { requests: new LabelRequests(this.#parts.call(call)), format: { ...this.#parts.format, ...given } }
   }
 
   /** Many labels, each with its own result. */
@@ -104,32 +115,39 @@ class LabelAccess implements Labels {
     return outcomes.map((outcome, at) => ({ label: textOf(items[at]), ...outcome }))
   }
 
-  write(label: string, value: LabelValue, options?: LabelOptions): Promise<void>
-  write(values: Readonly<Record<string, LabelValue>>, options?: LabelOptions): Promise<Record<string, LabelWriteResult>>
+  write(label: string, value: WriteValue, options?: LabelOptions): Promise<void>
+  write(values: Readonly<Record<string, WriteValue>>, options?: LabelOptions): Promise<void>
   async write(
-    target: string | Readonly<Record<string, LabelValue>>,
-    second?: LabelValue | LabelOptions,
+    target: string | Readonly<Record<string, WriteValue>>,
+    second?: WriteValue | LabelOptions,
     third?: LabelOptions,
-  ): Promise<unknown> {
+  ): Promise<void> {
     if (typeof target === 'string') {
-      const [result] = await this.#writeList([[target, second as LabelValue]], third ?? {})
+      const [result] = await this.#writeList([[target, second as WriteValue]], third)
       if (result?.ok === false) throw result.error
-      return undefined
+      return
     }
-    const names = namesOf(target, 'Labels to write are a name and its value, or an object by name')
-    const entries = names.map((name) => [name, target[name] as LabelValue] as const)
-    const results = await this.#writeList(entries, (second as LabelOptions | undefined) ?? {})
-    return Object.fromEntries(results.map((result) => [result.label, result]))
+    const results = await this.writeEach(target, second as LabelOptions | undefined)
+    checkAllWritten(Object.values(results).map(({ label, ...outcome }) => ({ item: label, ...outcome })))
+  }
+
+  async writeEach(
+    values: Readonly<Record<string, WriteValue>>,
+    options?: LabelOptions,
+  ): Promise<Record<string, LabelWriteResult>> {
+    const names = namesOf(values, 'Labels to write are a name and its value, or an object by name')
+    const entries = names.map((name) => [name, values[name] as WriteValue] as const)
+    return byName(names, await this.#writeList(entries, options))
   }
 
   async #writeList(
-    entries: readonly (readonly [label: string, value: LabelValue])[],
-    options: LabelOptions,
+    entries: readonly (readonly [label: string, value: WriteValue])[],
+    options: LabelOptions = {},
   ): Promise<LabelWriteResult[]> {
     // Before anything is sent, also the reading of the data types.
     this.#parts.permitWrite()
     const { requests, format } = this.#opened(options)
-    const asked = entries.map(([label, value]) => attempt(() => labelEntry(askedLabel(label), value)))
+    const asked = entries.map(([label, value]) => attempt(() => labelEntry(askedLabel(label), valueGiven(value))))
     const writes = await labelWrites(asked, requests, format)
     const errors = await requests.write(writes.filter(isFine))
     return writes.map((write, at): LabelWriteResult => {

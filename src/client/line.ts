@@ -1,6 +1,14 @@
 // One attempt to connect and the connection it becomes: a transport, a session, and the first request that proves it.
 import { type ConnectionError, EndCodeError, endsConnection, type PlcError, ProtocolError } from '../errors'
-import { type Fence, type ResponseFrame, type SerialNumbers, Session, type SessionEvent } from '../link/link'
+import {
+  type Fence,
+  type Outcome,
+  type ResponseFrame,
+  type RoundTrips,
+  type SerialNumbers,
+  Session,
+  type SessionEvent,
+} from '../link/link'
 import type { Transport } from '../transport/transport'
 import type { Call } from './call'
 import type { ConnectionOptions, TracedFrame } from './connection-options'
@@ -18,6 +26,7 @@ export interface LineOwner<Head> {
   readonly counters: Counters
   readonly serials: SerialNumbers
   readonly fence: Fence<Head>
+  readonly roundTrips: RoundTrips
   /** The PLC has answered the first request; or nothing is asked, and the first request of the program proves it. */
   verified(answered: boolean): void
   /** The PLC has answered a request of the program. */
@@ -34,6 +43,8 @@ export interface LineOwner<Head> {
 }
 
 type Done<Head> = Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>
+
+type TooLate = Extract<Outcome<unknown>, { kind: 'tooLate' }>
 
 export class Line<Head> {
   readonly #options: ConnectionOptions<Head>
@@ -107,9 +118,9 @@ export class Line<Head> {
 
   #opened(transport: Transport): void {
     const { framing, inFlight, clock } = this.#options
-    const { serials } = this.#owner
+    const { serials, roundTrips } = this.#owner
     this.#openBy = undefined
-    const options = { kind: transport.kind, window: inFlight, serials }
+    const options = { kind: transport.kind, window: inFlight, serials, roundTrips }
     this.#session = new Session<Head, Call<Head>>(framing, options, this.#fenceFor(transport))
     const first = this.#opening.begin(clock.now())
     if (first === undefined) this.#owner.verified(false)
@@ -264,6 +275,7 @@ export class Line<Head> {
     if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
     else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
     else if (outcome.kind === 'unproved') this.#unproved(job)
+    else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
     // `disconnected` is met by `end` only.
     else if (outcome.kind === 'failed') job.fail(outcome.error)
   }
@@ -300,15 +312,18 @@ export class Line<Head> {
       return
     }
     if (!isProbe) this.#owner.counters.add('timeouts')
-    const causes = this.#causes()
     if (!sent) {
-      const error = failure.notSentInTime(job.exchange.title)
-      job.fail(error)
-      // The attempt ends with its first request: nothing else is due on a line that nobody may use yet.
-      if (isProbe) this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
+      job.fail(failure.notSentInTime(job.exchange.title))
       return
     }
+    const causes = this.#causes()
     this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
+  }
+
+  /** It waited so long that an answer would not come in time: the connection is as good as before. */
+  #tooLate(job: Call<Head>, { waiting, roundTrip }: TooLate): void {
+    if (!this.#opening.owns(job)) this.#owner.counters.add('overloaded')
+    job.fail(failure.overloaded(job.exchange.title, waiting, roundTrip))
   }
 
   /** What must come back before a request on a fixed port did not: the request was not sent. */

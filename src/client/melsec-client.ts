@@ -1,6 +1,5 @@
 // The client of a MELSEC PLC: one connection in the background, typed items on top of it.
 import type { DataCode } from '../codec/codec'
-import { RequestError } from '../errors'
 import type { Exchange } from '../link/link'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
@@ -12,8 +11,18 @@ import type { ClientProtocol, ExchangeOptions } from '../melsec/protocol'
 import { isPasswordRefusal, isPortLocked } from '../melsec/remote-password'
 import { nameResults } from './about'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
-import { type CallOptions, optionProblem } from './call'
-import type { ClientEvents, ItemValue, ReadPlan, ReadValue, WriteEntry, WritePlan } from './client-types'
+import { type CallOptions, callOptionsOf } from './call'
+import type {
+  ClientEvents,
+  Items,
+  ItemValue,
+  ReadPlan,
+  ReadValue,
+  WriteEntry,
+  WritePlan,
+  WriteValue,
+  WriteValues,
+} from './client-types'
 import { Connection, type ConnectionState } from './connection'
 import { type Control, controlOf, type Identity, identify, proofs, type Send, selfTestOf } from './control'
 import { Deadline } from './deadline'
@@ -26,27 +35,27 @@ import type { ItemExplanation } from './label-explain'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
 import { type Monitor, type MonitorCall, Registration } from './monitor'
-import { explainRequest, type NamedRequest, namedRequest, type RequestExplanation } from './named-request'
+import {
+  EXCHANGE_OPTIONS,
+  explainRequest,
+  FORM_OPTION,
+  type NamedRequest,
+  namedRequest,
+  type RequestExplanation,
+} from './named-request'
 import { checkOnDemand, type Unsolicited, unsolicitedOf } from './on-demand'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import { protocolOf, transportOf } from './parts'
+import { notPermitted, overUdp } from './permission'
 import type { Item, ReadResult, WriteOptions, WriteResult } from './plan'
 import { probesOf } from './probes'
 import { RemotePassword } from './remote-password'
-import { byName, plainValue } from './results'
+import { byName, checkAllWritten, entriesOf, plainValue } from './results'
 import type { Statistics } from './statistics'
 import { Tracer } from './trace'
 
-export type {
-  ClientEvents,
-  ItemValue,
-  OnDemand,
-  ReadPlan,
-  ReadValue,
-  UnsolicitedFrame,
-  WriteEntry,
-  WritePlan,
-} from './client-types'
+/** Node.js before 20.5 has no such symbol; programs for it bring one of this name. */
+const asyncDispose: typeof Symbol.asyncDispose = Symbol.asyncDispose ?? Symbol.for('Symbol.asyncDispose')
 
 /** ms that closing may wait for the PLC to close open files, and to lock itself: over TCP the end of the connection does. */
 const CLOSING_TIME = 500
@@ -123,7 +132,7 @@ export class MelsecClient {
       onUnsolicited: (frame) => this.#cameUnasked(unsolicitedOf(frame, settings, settings.clock.time())),
     })
     this.#registration = new Registration(() => this.#connection.generation)
-    this.#send = (command, message, call) => this.request(command, message, call)
+    this.#send = async (command, message, call) => this.request(command, message, callOptionsOf(call))
     const { clock, timeout } = settings
     this.control = controlOf({ send: this.#send, profile: this.#protocol.profile, clock, timeout })
     this.labels = labelsOf({
@@ -185,6 +194,17 @@ export class MelsecClient {
     return this.#listeners.on(event, listener)
   }
 
+  /** As `on`, for the next event only. @returns what ends it before. @throws RequestError BAD_OPTION as `on` does */
+  once<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
+    if (event === 'ondemand') checkOnDemand(this.#settings, this.options)
+    return this.#listeners.once(event, listener)
+  }
+
+  /** Ends what `on` or `once` began with this function. @throws RequestError BAD_OPTION when there is no such event */
+  off<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): void {
+    this.#listeners.off(event, listener)
+  }
+
   #traceIfWanted(): void {
     const tell: Connection<Head3e>['onTrace'] = (frame) => this.#listeners.tell('trace', this.#tracer.entry(frame))
     this.#connection.onTrace = this.#listeners.has('trace') ? tell : undefined
@@ -203,9 +223,7 @@ export class MelsecClient {
 
   /** Connects now instead of at the first call. Resolves when the PLC has answered. */
   async connect(options: CallOptions = {}): Promise<void> {
-    const problem = optionProblem(options)
-    if (problem !== undefined) throw problem
-    return this.#connection.connect(options)
+    return this.#connection.connect(callOptionsOf(options))
   }
 
   /** Ends the connection and every call under way. The client cannot be used again. */
@@ -215,6 +233,11 @@ export class MelsecClient {
     const lock = this.#password.lock()
     if (lock === undefined) this.#connection.close()
     else await this.#connection.finish(lock, CLOSING_TIME)
+  }
+
+  /** `await using plc = createMelsecClient(...)`: `close()` at the end of the block. */
+  async [asyncDispose](): Promise<void> {
+    await this.close()
   }
 
   /** A courtesy to the PLC: whether it comes to its end or not, nobody waits long for it. */
@@ -234,7 +257,8 @@ export class MelsecClient {
 
   /**
    * Reads one item, or many in few requests.
-   * One item: its value; throws what went wrong. Many: a result per item, so that one bad item does not hide the others.
+   * One item: its value; throws what went wrong. Many: a result for each, as `readEach`. An object with a text `address`
+   * is one item; to `readEach` and `readValues` it is many, of which one is named address.
    * @example await plc.read('D100:REAL')
    * @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' })
    */
@@ -242,17 +266,28 @@ export class MelsecClient {
   read(items: readonly Item[], options?: CallOptions): Promise<ReadResult[]>
   read<K extends string>(items: Readonly<Record<K, Item>>, options?: CallOptions): Promise<Record<K, ReadResult>>
   async read(
-    items: Item | readonly Item[] | Readonly<Record<string, Item>>,
+    items: Item | Items,
     options?: CallOptions,
   ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
     if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
+    if (!isList(items)) namesOfItems(items, ITEMS)
+    return this.readEach(items, options)
+  }
+
+  /**
+   * Reads many items in few requests, with a result for each: one that cannot be read does not hide the others.
+   */
+  readEach(items: readonly Item[], options?: CallOptions): Promise<ReadResult[]>
+  readEach<K extends string>(items: Readonly<Record<K, Item>>, options?: CallOptions): Promise<Record<K, ReadResult>>
+  readEach(items: Items, options?: CallOptions): Promise<ReadResult[] | Record<string, ReadResult>>
+  async readEach(items: Items, options?: CallOptions): Promise<ReadResult[] | Record<string, ReadResult>> {
     if (isList(items)) return this.#items.prepare(items).run(options)
-    const names = namesOfItems(items, ITEMS)
+    const names = namesOf(items, ITEMS)
     return byName(names, await this.#named(names, items, options))
   }
 
   /**
-   * Reads as `read` does and gives plain values.
+   * Reads many items in few requests and gives plain values.
    * @throws the first item's error when any item failed.
    * @example const { level, temperature } = await plc.readValues({ level: 'D100:REAL', temperature: 'D102:REAL' })
    */
@@ -264,9 +299,9 @@ export class MelsecClient {
     items: R,
     options?: CallOptions,
   ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
-  async readValues(items: readonly Item[] | Readonly<Record<string, Item>>, options?: CallOptions): Promise<unknown> {
+  async readValues(items: Items, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
-    const names = namesOfItems(items, ITEMS)
+    const names = namesOf(items, ITEMS)
     return byName(names, (await this.#named(names, items, options)).map(plainValue))
   }
 
@@ -290,7 +325,7 @@ export class MelsecClient {
   /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
   #call(options: CallOptions | undefined): MonitorCall<Head3e> {
     const { clock, timeout } = this.#settings
-    const deadline = new Deadline(clock, options, timeout)
+    const deadline = new Deadline(clock, callOptionsOf(options), timeout)
     return {
       deadline,
       send: (exchange) => {
@@ -306,39 +341,45 @@ export class MelsecClient {
   }
 
   /**
-   * Writes one item, or many. Needs `allowWrites`. A write whose outcome is unknown is never repeated.
+   * Writes one item, or many as `writeValues`. Needs `allowWrites`. When it resolves, everything was written. A write
+   * whose outcome is unknown is never repeated.
+   * @throws WriteError of many, when anything was not written
    * @example await plc.write('D200:REAL', 71.5)
-   * @example const results = await plc.write({ 'D200:REAL': 71.5, M10: true })
+   * @example await plc.write({ 'D200:REAL': 71.5, M10: true })
    */
-  write(item: Item, value: ReadValue, options?: CallOptions & WriteOptions): Promise<void>
-  write(entries: readonly WriteEntry[], options?: CallOptions & WriteOptions): Promise<WriteResult[]>
-  write(
-    values: Readonly<Record<string, ReadValue>>,
-    options?: CallOptions & WriteOptions,
-  ): Promise<Record<string, WriteResult>>
+  write(item: Item, value: WriteValue, options?: CallOptions & WriteOptions): Promise<void>
+  write(values: WriteValues, options?: CallOptions & WriteOptions): Promise<void>
   async write(
-    target: Item | readonly WriteEntry[] | Readonly<Record<string, ReadValue>>,
-    second?: ReadValue | (CallOptions & WriteOptions),
+    target: Item | WriteValues,
+    second?: WriteValue | (CallOptions & WriteOptions),
     third?: CallOptions & WriteOptions,
-  ): Promise<unknown> {
-    if (isItem(target)) {
-      const [result] = await this.#items.write([{ item: target, value: second as ReadValue }], third)
-      if (result?.ok === false) throw result.error
-      return undefined
-    }
-    const options = second as (CallOptions & WriteOptions) | undefined
-    if (isList(target)) return this.#items.write(target, options)
-    const names = namesOf(
-      target,
-      'Values to write are an item and its value, a list of entries, or an object by address',
-    )
-    return byName(
-      names,
-      await this.#items.write(
-        names.map((item) => ({ item, value: target[item] as ReadValue })),
-        options,
-      ),
-    )
+  ): Promise<void> {
+    if (!isItem(target)) return this.writeValues(target, second as (CallOptions & WriteOptions) | undefined)
+    const [result] = await this.#items.write([{ item: target, value: second as WriteValue }], third)
+    if (result?.ok === false) throw result.error
+  }
+
+  /**
+   * Writes many items, in their order. Needs `allowWrites`. When it resolves, everything was written.
+   * @throws WriteError when anything was not written: its `results` say what became of each item
+   * @example await plc.writeValues({ 'D200:REAL': 71.5, M10: true })
+   */
+  async writeValues(values: WriteValues, options?: CallOptions & WriteOptions): Promise<void> {
+    checkAllWritten(await this.#items.write(entriesOf(values), options))
+  }
+
+  /**
+   * Writes many items as `writeValues` does, with a result for each instead of an error. Look at each of them.
+   * @example const results = await plc.writeEach({ 'D200:REAL': 71.5, M10: true })
+   */
+  writeEach(entries: readonly WriteEntry[], options?: CallOptions & WriteOptions): Promise<WriteResult[]>
+  writeEach<K extends string>(
+    values: Readonly<Record<K, WriteValue>>,
+    options?: CallOptions & WriteOptions,
+  ): Promise<Record<K, WriteResult>>
+  async writeEach(values: WriteValues, options?: CallOptions & WriteOptions): Promise<unknown> {
+    const results = await this.#items.write(entriesOf(values), options)
+    return isList(values) ? results : byName(Object.keys(values), results)
   }
 
   /** The requests that write these values: to look at before they are run. */
@@ -363,7 +404,7 @@ export class MelsecClient {
     message: RequestOf<C>,
     options: CallOptions & ExchangeOptions = {},
   ): Promise<ResponseOf<C>> {
-    const { deadline, send } = this.#call(options)
+    const { deadline, send } = this.#call(callOptionsOf(options, EXCHANGE_OPTIONS))
     checkRequest(command, message, options.form)
     const exchange = this.#protocol.exchange(command, message, options)
     if (command.name !== commands.entryMonitorDevice.name) return send(exchange)
@@ -390,9 +431,10 @@ export class MelsecClient {
     message: unknown = {},
     options: CallOptions & Pick<ExchangeOptions, 'form'> = {},
   ): Promise<Readonly<Record<string, unknown>>> {
+    const call = callOptionsOf(options, FORM_OPTION)
     const named = namedRequest(name, message, this.notation)
     if (named.before === undefined) return this.request(named.command, named.message, options)
-    const { deadline, send } = this.#call(options)
+    const { deadline, send } = this.#call(call)
     const [registering, asking] = this.#exchangesOf(named, options)
     return this.#registration.inTurn(deadline, asking.title, async () => {
       this.#registration.lose()
@@ -448,20 +490,6 @@ export class MelsecClient {
   }
 
   /** Read Type Name, or one word where the port has no such command: harmless, and a refusal is an answer, too. */
-}
-
-/** A registration that arrives twice or late would take the place of another one, and its values would be wrong. */
-function overUdp(title: string): RequestError {
-  return new RequestError('UNSUPPORTED', `${title} over UDP is not safe: use readRandom, or TCP.`, 'transport')
-}
-
-function notPermitted(title: string, option: 'allowWrites' | 'allowControl'): RequestError {
-  const what = option === 'allowWrites' ? 'writing to' : 'controlling'
-  return new RequestError(
-    'NOT_PERMITTED',
-    `${title} was not sent: ${what} this PLC is not allowed. Set ${option} to true if it should be.`,
-    option,
-  )
 }
 
 const ITEMS = 'Items to read are one item, a list of items, or an object of items by name'

@@ -79,7 +79,7 @@ export class MixedWrite<Head> {
     const steps = new Map<number, LabelStep>()
     this.#entries.forEach(({ item, value }, entry) => {
       if (!isLabel(item)) return
-      const written = attempt(() => labelEntry(item.label, value as LabelEntry['value']))
+      const written = attempt(() => labelEntry(item.label, value))
       if (isFine(written)) steps.set(entry, { text: item.text, label: written.asked, entry, written })
       else this.#errors.set(entry, written)
     })

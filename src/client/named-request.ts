@@ -5,7 +5,12 @@ import { commandNamed } from '../melsec/command-name'
 import type { CommandName } from '../melsec/commands/commands'
 import type { Notation } from '../melsec/device-json'
 import { messageFromJson, messageToJson } from '../melsec/message-json'
+import type { ExchangeOptions } from '../melsec/protocol'
+import type { OptionNames } from './call'
 import { shown } from './given'
+
+export const FORM_OPTION: OptionNames<Pick<ExchangeOptions, 'form'>> = { form: true }
+export const EXCHANGE_OPTIONS: OptionNames<ExchangeOptions> = { ...FORM_OPTION, subcommand: true, context: true }
 
 /** A command with its message. */
 export interface NamedRequest {

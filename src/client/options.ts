@@ -17,7 +17,7 @@ import { checkRouteOf, completeRoute, isConnectedStation, ownStation, type Route
 import { type Clock, realClock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
 import { checkFormat, type ValueFormat } from '../value/value'
-import { shown } from './given'
+import { checkNames, shown } from './given'
 import type { LabelFormat } from './label-item'
 import { checkProbe, type ProbeKind, probeKinds } from './probes'
 
@@ -223,19 +223,6 @@ function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }
     ...(encoding === undefined ? {} : { encoding }),
     ...(trimSpaces === undefined ? {} : { trim: trimSpaces }),
     ...(asciiWordOrder === undefined ? {} : { asciiWordOrder }),
-  }
-}
-
-/** A misspelt option would be the default, without anybody noticing. */
-function checkNames(prefix: string, given: object, names: Readonly<Record<string, true>>): void {
-  if (typeof given !== 'object' || given === null) {
-    const what = prefix === '' ? 'A client' : prefix.slice(0, -1)
-    throw new RequestError('BAD_OPTION', `${what} takes an object with ${Object.keys(names).join(', ')}.`)
-  }
-  for (const name of Object.keys(given)) {
-    if (Object.hasOwn(names, name)) continue
-    const field = `${prefix}${name}`
-    throw new RequestError('BAD_OPTION', `There is no option ${field}: use ${Object.keys(names).join(', ')}.`, field)
   }
 }
 

@@ -2,7 +2,7 @@
  * A prepared write: everything is checked and encoded before the first request, the requests are sent one after another
  * in the order of the entries, and nothing that may have been carried out is ever sent again.
  */
-import { ClosedError, EndCodeError, PlcError, RequestError } from '../errors'
+import { ClosedError, EndCodeError, PlcError, RequestError, type WriteResult } from '../errors'
 import { explainEndCode } from '../melsec/end-code'
 import type { Profile } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
@@ -19,10 +19,7 @@ export interface WriteEntry {
   readonly value: WriteValue
 }
 
-/** What became of one entry. `error.outcome` says whether the PLC may have been changed. */
-export type WriteResult =
-  | { readonly item: string; readonly ok: true }
-  | { readonly item: string; readonly ok: false; readonly error: PlcError }
+export type { WriteResult } from '../errors'
 
 export interface WriteOptions {
   /**

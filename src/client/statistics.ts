@@ -21,6 +21,8 @@ export interface Statistics {
   readonly refused: number
   /** Requests without an answer before their deadline, sent or not. */
   readonly timeouts: number
+  /** Requests that waited until an answer could not come in time any more, and were not sent: more is asked than the PLC answers. */
+  readonly overloaded: number
   readonly aborted: number
   /** Times that the PLC sent what the protocol does not allow. */
   readonly protocolErrors: number
@@ -50,6 +52,7 @@ export class Counters {
     answered: 0,
     refused: 0,
     timeouts: 0,
+    overloaded: 0,
     aborted: 0,
     protocolErrors: 0,
     stale: 0,

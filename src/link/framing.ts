@@ -1,5 +1,6 @@
 // What a frame is to the session and the responder: no protocol, no I/O.
 import type { PlcError } from '../errors'
+import type { Scheduled } from './scheduler'
 
 /** A frame that carries a request, as the responder sees it. */
 export interface RequestFrame<Head> {
@@ -64,11 +65,13 @@ export interface Framing<Head> {
 }
 
 /** A request on its way: what the session needs to know about it. */
-export interface Job<Head> {
+export interface Job<Head> extends Scheduled {
   readonly head: Head
   readonly body: Uint8Array
   /** Absolute time, on the clock the session is given, after which nobody waits any more. */
   readonly deadline: number
+  /** ms it was given in all, waiting included: once sent it may use at least a share of it (`SHARE` in session.ts). */
+  readonly allowance?: number
   /** Length of the answer's body, asked only by frames that carry none. */
   readonly responseLength: BodyLength<Head>
   /** Sent although nothing proves that earlier answers are not still on their way (see `Fence`): a locked PLC echoes nothing. */
@@ -82,6 +85,8 @@ export type Outcome<Head> =
   | { readonly kind: 'disconnected'; readonly sent: boolean }
   /** Not sent: what must come back before it, so that its answer can be known (see `Fence`), did not in time. */
   | { readonly kind: 'unproved' }
+  /** Not sent: too late for an answer before its deadline. `waiting`: requests that wait, itself included. */
+  | { readonly kind: 'tooLate'; readonly waiting: number; readonly roundTrip: number | undefined }
   | { readonly kind: 'failed'; readonly error: PlcError }
 
 /** What a session tells its owner. */

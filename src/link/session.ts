@@ -8,7 +8,10 @@
 // needs a fence (fence.ts): each request waits until it is proved that nothing earlier is under way.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
 import type { Fence } from './fence'
+
 import type { Framing, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
+import { RoundTrips } from './round-trips'
+import { Scheduler } from './scheduler'
 import { SerialNumbers } from './serial-numbers'
 
 /** How the session reads its bytes, and how much may be under way. */
@@ -21,6 +24,8 @@ export interface SessionOptions {
   readonly maxFrame?: number
   /** Of the peer; hand the same one to each of its sessions, so that no number is used again too soon. */
   readonly serials?: SerialNumbers
+  /** Of the peer, too. */
+  readonly roundTrips?: RoundTrips
 }
 
 interface Outgoing {
@@ -43,19 +48,28 @@ type Found<Head> =
 
 const EMPTY = Buffer.alloc(0)
 const MAX_FRAME = 65_536
+/**
+ * A request is sent only while so much of its allowance is left, and while an answer usually comes within what is left.
+ * One that is sent too late expires without an answer, and takes the connection with it.
+ */
+const SHARE = 1 / 10
+/** A request that has not waited is sent whatever the round trips were: they may have become shorter. */
+const LARGEST_SHARE = 0.9
 
 export class Session<Head, J extends Job<Head> = Job<Head>> {
   readonly #framing: Framing<Head>
   readonly #options: SessionOptions
   readonly #fence: Fence<Head> | undefined
   #pending: Pending<J>[] = []
-  #waiting: J[] = []
+  readonly #waiting = new Scheduler<J>()
   #output: Outgoing[] = []
   #events: SessionEvent<Head, J>[] = []
   #received: Buffer = EMPTY
   /** Stream: what may still follow the last answer. */
   #mayFollow: Buffer = EMPTY
   readonly #serials: SerialNumbers
+  readonly #roundTrips: RoundTrips
+  #answeredAt = Number.NEGATIVE_INFINITY
   /** Set once the connection must go: nothing more is sent or attributed on it. */
   #dropped = false
 
@@ -73,6 +87,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     this.#fence = fence
     fence?.begin()
     this.#serials = options.serials ?? new SerialNumbers()
+    this.#roundTrips = options.roundTrips ?? new RoundTrips()
   }
 
   /** Requests sent, or just about to be, and not answered. */
@@ -82,7 +97,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
 
   /** Requests accepted and not sent. */
   get queued(): number {
-    return this.#waiting.length
+    return this.#waiting.size
   }
 
   /** Bytes of an unfinished frame that are kept: never more than `maxFrame`. */
@@ -91,7 +106,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   }
 
   submit(job: J, now: number): void {
-    this.#waiting.push(job)
+    this.#waiting.add(job)
     this.#fill(now)
   }
 
@@ -100,11 +115,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
    * @returns whether it had been sent; `undefined` when the session does not know the job.
    */
   abandon(job: J, now: number): boolean | undefined {
-    const waiting = this.#waiting.indexOf(job)
-    if (waiting >= 0) {
-      this.#waiting.splice(waiting, 1)
-      return false
-    }
+    if (this.#waiting.remove(job)) return false
     const pending = this.#pending.find((entry) => entry.job === job)
     if (pending === undefined) return undefined
     this.#giveUp([pending], 'a request in flight was abandoned')
@@ -114,18 +125,14 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
 
   receive(chunk: Buffer, now: number): void {
     if (this.#dropped) return
-    if (this.#options.kind === 'datagram') this.#receiveDatagram(chunk)
-    else this.#receiveStream(chunk)
+    if (this.#options.kind === 'datagram') this.#receiveDatagram(chunk, now)
+    else this.#receiveStream(chunk, now)
     this.#fill(now)
   }
 
   /** Ends what is overdue. Call it when `nextTimeout()` is reached. */
   timeout(now: number): void {
-    for (const job of this.#waiting.filter((entry) => entry.deadline <= now)) {
-      this.#waiting.splice(this.#waiting.indexOf(job), 1)
-      const unproved = this.#fence?.due !== undefined && job.needsNoProof !== true
-      this.#finish(job, unproved ? { kind: 'unproved' } : { kind: 'timedOut', sent: false }, undefined)
-    }
+    for (const job of [...this.#waiting].filter((entry) => this.#sendBy(entry) <= now)) this.#tooLate(job)
     const late = this.#pending.filter((entry) => entry.job.deadline <= now)
     for (const { job, sentAt, sent } of late) this.#finish(job, { kind: 'timedOut', sent }, sentAt)
     if (late.length > 0) this.#giveUp(late, 'no answer before the deadline')
@@ -135,9 +142,8 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   /** The connection is gone: everything that was in flight has an unknown outcome, the rest was not sent. */
   disconnected(): void {
     const pending = this.#pending
-    const waiting = this.#waiting
+    const waiting = this.#waiting.clear()
     this.#pending = []
-    this.#waiting = []
     this.#output = []
     this.#received = EMPTY
     this.#dropped = true
@@ -151,9 +157,12 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   /** When something is due, or `undefined` when nothing waits. */
   nextTimeout(): number | undefined {
     let earliest: number | undefined
-    if (this.#waiting.length > 0) earliest = this.#fence?.due
+    if (this.#waiting.size > 0) earliest = this.#fence?.due
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
-    for (const job of this.#waiting) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
+    for (const job of this.#waiting) {
+      const sendBy = this.#sendBy(job)
+      if (earliest === undefined || sendBy < earliest) earliest = sendBy
+    }
     return earliest
   }
 
@@ -172,14 +181,14 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
 
   #fill(now: number): void {
     while (!this.#dropped && this.#pending.length < this.#options.window) {
-      const job = this.#waiting[0]
+      const job = this.#waiting.peek()
       if (job === undefined) return
-      if (job.deadline > now && !this.#mayLeave(job, now)) return
-      this.#waiting.shift()
-      if (job.deadline <= now) {
-        this.#finish(job, { kind: 'timedOut', sent: false }, undefined)
+      if (this.#sendBy(job) <= now) {
+        this.#tooLate(job)
         continue
       }
+      if (!this.#mayLeave(job, now)) return
+      this.#waiting.take()
       this.#fence?.sent()
       const serial = this.#serials.take((used) => this.#pending.some((entry) => entry.serial === used))
       const entry = {
@@ -194,6 +203,28 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     }
   }
 
+  /** After this it is not sent any more. */
+  #sendBy({ deadline, allowance }: J): number {
+    if (allowance === undefined) return deadline
+    const needed = Math.max(allowance * SHARE, this.#roundTrips.long)
+    return deadline - Math.min(needed, allowance * LARGEST_SHARE)
+  }
+
+  /** Ends a waiting job that cannot be answered in time any more. */
+  #tooLate(job: J): void {
+    const waiting = this.#waiting.size
+    this.#waiting.remove(job)
+    this.#finish(job, this.#whyUnsent(job, waiting), undefined)
+  }
+
+  #whyUnsent({ deadline, allowance, needsNoProof }: J, waiting: number): Outcome<Head> {
+    if (this.#fence?.due !== undefined && needsNoProof !== true) return { kind: 'unproved' }
+    // While it waited the peer answered others, only not soon enough; otherwise it is silent.
+    const isAlive = allowance !== undefined && this.#answeredAt >= deadline - allowance
+    if (!isAlive) return { kind: 'timedOut', sent: false }
+    return { kind: 'tooLate', waiting, roundTrip: this.#roundTrips.usual }
+  }
+
   /** Whether its answer could be told from earlier ones; asks for the proof when it is due. */
   #mayLeave(job: J, now: number): boolean {
     const fence = this.#fence
@@ -203,14 +234,14 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     return false
   }
 
-  #receiveStream(chunk: Buffer): void {
+  #receiveStream(chunk: Buffer, now: number): void {
     this.#received = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
     try {
       while (!this.#dropped && !this.#passOver() && this.#received.length > 0) {
         const found = this.#find(this.#received)
         if (found === undefined) break
         this.#mayFollow = (found.kind === 'answer' && found.mayFollow) || EMPTY
-        this.#take(found)
+        this.#take(found, now)
         this.#received = found.used >= this.#received.length ? EMPTY : this.#received.subarray(found.used)
       }
       this.#refuseEndlessFrame()
@@ -238,7 +269,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   }
 
   /** One datagram is one frame. What does not fit is looked at before anything of it is believed. */
-  #receiveDatagram(datagram: Buffer): void {
+  #receiveDatagram(datagram: Buffer, now: number): void {
     const { length } = datagram
     if (this.#isOfFence(datagram)) return
     try {
@@ -250,7 +281,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
         const message = `A datagram holds ${length - found.used} byte(s) behind its frame.`
         throw new ProtocolError('TRAILING', message, found.used, datagram)
       }
-      this.#take(found)
+      this.#take(found, now)
     } catch (error) {
       this.#fail(error)
     }
@@ -280,10 +311,10 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     return scanned && { kind: 'answer', ...scanned }
   }
 
-  #take(found: Found<Head>): void {
+  #take(found: Found<Head>, now: number): void {
     switch (found.kind) {
       case 'answer':
-        this.#attribute(found.frame)
+        this.#attribute(found.frame, now)
         return
       case 'unsolicited':
         this.#events.push({ kind: 'unsolicited', frame: found.frame })
@@ -299,7 +330,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     }
   }
 
-  #attribute(frame: ResponseFrame<Head>): void {
+  #attribute(frame: ResponseFrame<Head>, now: number): void {
     const at =
       this.#framing.correlation === 'serial'
         ? this.#pending.findIndex((entry) => entry.serial === frame.serial)
@@ -315,6 +346,9 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     if (mismatch !== undefined)
       throw new ProtocolError('ECHO_MISMATCH', `The answer is not the request's: ${mismatch}.`)
     this.#pending.splice(at, 1)
+    // The first requests on a connection meet a peer that is still waking up.
+    if (found.job.allowance !== undefined) this.#roundTrips.add(now - found.sentAt)
+    this.#answeredAt = now
     this.#fence?.answered()
     this.#finish(found.job, { kind: 'answered', frame }, found.sentAt)
     if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order') this.#renew('answered')

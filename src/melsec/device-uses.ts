@@ -1,5 +1,5 @@
 // Where the device addresses of a command stand in its message: found once per command from its declaration.
-import type { Shape } from '../codec/codec'
+import { isArrayLike, type Shape } from '../codec/codec'
 import type { Command } from './command'
 import type { DeviceAddress } from './device'
 import type { DeviceUse } from './device-access'
@@ -60,7 +60,7 @@ export function devicesOf(command: Command, message: Bag): readonly FoundDevice[
 
 function foundIn(command: Command, holder: Bag, field: string, list: string | undefined, path: string): FoundDevice {
   const { points, values } = holder
-  const count = typeof points === 'number' ? points : Array.isArray(values) ? values.length : undefined
+  const count = typeof points === 'number' ? points : isArrayLike(values) ? values.length : undefined
   const use = {
     command: command.name,
     ...(list === undefined ? {} : { list }),

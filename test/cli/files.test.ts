@@ -30,7 +30,10 @@ describe('ls', () => {
     const { code, out } = await runHere(['ls', '--plc=127.0.0.1:1', '--profile', 'iq-r'])
     expect(code).toBe(0)
     expect(out).toMatch(/^4: +data memory$/m)
-    expect((await runHere(['ls', '--plc=127.0.0.1:1', '--profile', 'iq-f'])).out).toMatch(/cannot be reached/)
+    for (const json of [[], ['--json']]) {
+      const none = await runHere(['ls', '--plc=127.0.0.1:1', '--profile', 'iq-f', ...json])
+      expect(none).toMatchObject({ code: 2, err: expect.stringMatching(/cannot be reached/) })
+    }
   })
 
   test('lists a directory, as text and as JSON', async () => {

@@ -102,7 +102,8 @@ describe('write', () => {
 describe('--plan', () => {
   test('prints the requests and sends none', async () => {
     const read = await runHere(['read', 'D0', 'Line1.Speed', 'Line1.Ready', 'Line1.Name', 'Q5', ...on(), '--plan'])
-    expect(read).toMatchObject({ code: 0, err: '' })
+    // Q5 is in none of them.
+    expect(read).toMatchObject({ code: 2, err: '' })
     expect(read.out).toMatch(/^Read \(word units\): D0, 1 point +\d+ bytes out, \d+ in +for D0$/m)
     expect(read.out).toMatch(
       /^Label Read Random: 3 labels, %1 for Line1 +\d+ bytes out, \? in +for Line1.Speed, Line1.Ready, Line1.Name$/m,
@@ -111,6 +112,8 @@ describe('--plan', () => {
     const write = await runHere(['write', 'D0=5', 'Line1.Values[0]:INT[2]=1,2', ...on(), '--plan', '--json'])
     const { requests } = JSON.parse(write.out) as { requests: { command: string }[] }
     expect(requests.map(({ command }) => command)).toEqual(['readRandomLabels', 'writeWords', 'writeArrayLabels'])
+    expect(write.code).toBe(0)
+    expect((await runHere(['write', 'D0=5', 'D1=70000', ...on(), '--plan'])).code).toBe(2)
     expect(asked).toEqual([])
   })
 })

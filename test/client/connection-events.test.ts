@@ -209,6 +209,7 @@ describe('the counters', () => {
       requests: 3,
       answered: 3,
       refused: 0,
+      overloaded: 0,
       timeouts: 0,
       aborted: 0,
       protocolErrors: 0,

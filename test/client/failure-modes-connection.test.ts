@@ -225,7 +225,7 @@ describe.each(links)('7: writes whose outcome is not known, over %s', (text) => 
         if (effect === 'write') writes++
       })
       plc.faults.add({ kind: 'drop', commands: ['writeWords', 'writeRandomWords'], times: 1 })
-      const results = await client.write([
+      const results = await client.writeEach([
         { item: 'D0[900]', value: Array(900).fill(1) },
         { item: 'D1000[900]', value: Array(900).fill(2) },
         { item: 'M0', value: true },

@@ -111,9 +111,17 @@ const methods: Readonly<Record<string, (value: unknown) => unknown>> = {
   'write({ D0: 1 }, x)': (x) => loose(client.write).call(client, { D0: 1 }, x),
   'write([x])': (x) => loose(client.write).call(client, [x]),
   'write([{ item: x, value: 1 }])': (x) => loose(client.write).call(client, [{ item: x, value: 1 }]),
+  'writeValues(x)': (x) => loose(client.writeValues).call(client, x),
+  'writeValues({ D0: x })': (x) => loose(client.writeValues).call(client, { D0: x }),
+  'writeEach(x)': (x) => loose(client.writeEach).call(client, x),
+  'writeEach([x])': (x) => loose(client.writeEach).call(client, [x]),
+  'writeEach({ D0: 1 }, x)': (x) => loose(client.writeEach).call(client, { D0: 1 }, x),
+  'readEach(x)': (x) => loose(client.readEach).call(client, x),
+  'readEach([D0], x)': (x) => loose(client.readEach).call(client, ['D0'], x),
   'planWrite(x)': (x) => loose(client.planWrite).call(client, x),
   'planWrite([], x)': (x) => loose(client.planWrite).call(client, [], x),
   'planWrite([D0]).run(x)': (x) => loose(client.planWrite([{ item: 'D0', value: 1 }]).run)(x),
+  'planWrite([D0]).runEach(x)': (x) => loose(client.planWrite([{ item: 'D0', value: 1 }]).runEach)(x),
   'monitor(x)': (x) => loose(client.monitor).call(client, x),
   'monitor([x]).read()': (x) => (loose(client.monitor).call(client, [x]) as { read: Loose }).read(),
   'monitor([D0]).read(x)': (x) => loose(client.monitor(['D0']).read).call(client.monitor(['D0']), x),
@@ -228,8 +236,9 @@ test('what is no list and no item is never taken for an empty one', async () => 
   }
   expect(await client.read([])).toEqual([])
   expect(await client.read({})).toEqual({})
-  expect(await client.write({})).toEqual({})
-  expect(await client.write([])).toEqual([])
+  expect(await client.writeEach({})).toEqual({})
+  expect(await client.writeEach([])).toEqual([])
+  await client.write({})
   expect(await client.readValues([])).toEqual([])
   expect(await client.monitor([]).read()).toEqual([])
 })
@@ -237,11 +246,9 @@ test('what is no list and no item is never taken for an empty one', async () => 
 test('an object with an address that is no text is an item, and a wrong one', async () => {
   const wrong = { code: 'BAD_ADDRESS', outcome: 'notSent', field: 'address' }
   for (const address of [5, true, null, undefined, 5n, Symbol('x'), () => {}]) {
-    for (const method of [client.read, client.readValues]) {
-      expect(await outcomeOf(() => loose(method).call(client, { address, type: 'INT' }))).toMatchObject({
-        thrown: wrong,
-      })
-    }
+    expect(await outcomeOf(() => loose(client.read).call(client, { address, type: 'INT' }))).toMatchObject({
+      thrown: wrong,
+    })
     expect(await client.read(['D0', { address } as unknown as string])).toMatchObject([
       { ok: true },
       { ok: false, error: wrong },

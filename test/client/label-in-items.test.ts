@@ -274,7 +274,11 @@ describe('write', () => {
     await client.write('label:Line1.Speed', 3)
     expect(plc.labels.get('Line1.Speed')).toBe(3)
     asked.length = 0
-    const results = await client.write({ 'label:Line1.Values[3]': [9, 8], 'D100:REAL': 2, 'label:Line1.Ready': true })
+    const results = await client.writeEach({
+      'label:Line1.Values[3]': [9, 8],
+      'D100:REAL': 2,
+      'label:Line1.Ready': true,
+    })
     expect(results).toEqual({
       'label:Line1.Values[3]': { item: 'label:Line1.Values[3]', ok: true },
       'D100:REAL': { item: 'D100:REAL', ok: true },
@@ -294,14 +298,14 @@ describe('write', () => {
       { item: 'D100:REAL', value: 5 },
       { item: 'label:Line1.Ready', value: true },
     ]
-    const results = await client.write(entries, { timeout: 300 })
+    const results = await client.writeEach(entries, { timeout: 300 })
     expect(results.map((result) => (result.ok ? 'ok' : result.error.outcome))).toEqual(['unknown', 'notSent'])
     expect(plc.labels.get('Line1.Ready')).toBe(false)
   })
 
   test('all or nothing: one bad value, and nothing is written', async () => {
     const values = { 'D100:REAL': 2, 'Line1.Ready': true, 'Line1.Mask': 70_000 }
-    const results = await client.write(values, { allOrNothing: true })
+    const results = await client.writeEach(values, { allOrNothing: true })
     expect(Object.values(results).map((result) => (result.ok ? 'ok' : result.error.code))).toEqual([
       'ABORTED',
       'ABORTED',
@@ -310,11 +314,11 @@ describe('write', () => {
     expect(results['Line1.Mask']).toMatchObject({ error: { message: expect.stringContaining('Line1.Mask') } })
     expect(asked).toEqual(['readRandomLabels'])
     asked.length = 0
-    const mistyped = await client.write({ 'Line1.Ready': true, Q5: 1 }, { allOrNothing: true })
+    const mistyped = await client.writeEach({ 'Line1.Ready': true, Q5: 1 }, { allOrNothing: true })
     expect(mistyped['Line1.Ready']).toMatchObject({ ok: false, error: { code: 'ABORTED', outcome: 'notSent' } })
     expect(asked).toEqual([])
     expect([plc.read('D100:REAL'), plc.labels.get('Line1.Ready')]).toEqual([-1, false])
-    const good = await client.write({ 'D100:REAL': 2, 'Line1.Ready': true }, { allOrNothing: true })
+    const good = await client.writeEach({ 'D100:REAL': 2, 'Line1.Ready': true }, { allOrNothing: true })
     expect(Object.values(good).every(({ ok }) => ok)).toBe(true)
   })
 
@@ -325,14 +329,14 @@ describe('write', () => {
       { item: 'Line1.Ready', value: true },
       { item: 'D102', value: 6 },
     ]
-    const results = await client.write(entries, { allOrNothing: true })
+    const results = await client.writeEach(entries, { allOrNothing: true })
     expect(results.map((result) => (result.ok ? 'ok' : result.error.code))).toEqual(['ok', 'END_CODE', 'ABORTED'])
     expect([plc.read('D100:REAL'), plc.read('D102')]).toEqual([5, 0])
   })
 
   test('a type that cannot be read is no write of unknown outcome', async () => {
     plc.faults.add({ kind: 'silence', commands: ['readRandomLabels'], times: 1 })
-    const results = await client.write({ 'Line1.Ready': true }, { timeout: 100 })
+    const results = await client.writeEach({ 'Line1.Ready': true }, { timeout: 100 })
     expect(results['Line1.Ready']).toMatchObject({ ok: false, error: { code: 'ABORTED', outcome: 'notSent' } })
     expect(plc.labels.get('Line1.Ready')).toBe(false)
   })
@@ -353,21 +357,21 @@ describe('write', () => {
 
   test('a label that is written twice holds the last value, by requests of its own', async () => {
     const items = ['Line1.Mask', 'Motor_1', 'label:Line1.Mask']
-    const results = await client.write(items.map((item, at) => ({ item, value: at + 1 })))
+    const results = await client.writeEach(items.map((item, at) => ({ item, value: at + 1 })))
     expect(results.every(({ ok }) => ok)).toBe(true)
     expect([plc.labels.get('Line1.Mask'), plc.labels.get('Motor_1')]).toEqual([3, 2])
     expect(asked).toEqual(['readRandomLabels', 'writeRandomLabels', 'writeRandomLabels'])
   })
 
   test('a label in other letters may be the same one: it goes out behind the first', async () => {
-    const results = await client.write({ 'Line1.Mask': 1, 'label:LINE1.MASK': 2 })
+    const results = await client.writeEach({ 'Line1.Mask': 1, 'label:LINE1.MASK': 2 })
     expect(Object.values(results).every(({ ok }) => ok)).toBe(true)
     expect(asked).toEqual(['readRandomLabels', 'writeRandomLabels', 'writeRandomLabels'])
   })
 
   test('a device that is written twice is refused, also with a label between', async () => {
     const entries = ['D100', 'Line1.Ready', 'D100'].map((item) => ({ item, value: item === 'D100' ? 1 : true }))
-    const results = await client.write(entries)
+    const results = await client.writeEach(entries)
     expect(results.map(({ ok }) => ok)).toEqual([false, true, false])
   })
 
@@ -387,7 +391,7 @@ describe('write', () => {
     ])
     expect(notes.join(' ')).toMatch(/The PLC says the types of labels before they are written.*Q5 is not written/)
     expect(plan.toString()).toContain('unknown bytes out')
-    const results = await plan.run()
+    const results = await plan.runEach()
     expect(results.map(({ ok }) => ok)).toEqual([true, true, true, false])
     expect(asked).toEqual(requests.map(({ command }) => command))
   })

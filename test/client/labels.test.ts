@@ -122,7 +122,7 @@ describe.each(codes)('in %s code over TCP', (code) => {
       'DWORD',
     ])
     expect(asked).toHaveLength(1)
-    const written = await client.labels.write(changed, order)
+    const written = await client.labels.writeEach(changed, order)
     expect(Object.values(written).filter(({ ok }) => !ok)).toEqual([])
     expect(asked).toHaveLength(3)
     expect(names.map((name) => plc.labels.get(name))).toEqual(Object.values(changed))
@@ -212,7 +212,7 @@ describe('writing', () => {
 
   test('what does not fit the type of the label is refused, the rest is written', async () => {
     const { client, plc } = await joined()
-    const results = await client.labels.write({
+    const results = await client.labels.writeEach({
       Start: 1,
       'Line1.Level': 40_000,
       'Line1.Recipe': 'too long',
@@ -236,7 +236,7 @@ describe('writing', () => {
     await client.labels.write({ Start: false, 'Line1.Values[0]': [1, 2], 'Line1.Level': 3 })
     expect(asked).toEqual(['readRandomLabels', 'writeRandomLabels', 'writeArrayLabels', 'writeRandomLabels'])
     plc.faults.add({ kind: 'silence', commands: ['writeArrayLabels'], times: 1 })
-    const results = await client.labels.write({ Start: true, 'Line1.Values[0]': [5], 'Line1.Level': 9 })
+    const results = await client.labels.writeEach({ Start: true, 'Line1.Values[0]': [5], 'Line1.Level': 9 })
     const outcomes = Object.values(results).map((result) => (result.ok ? 'ok' : result.error.outcome))
     expect(outcomes).toEqual(['ok', 'unknown', 'notSent'])
     expect(plc.labels.get('Line1.Level')).toBe(3)

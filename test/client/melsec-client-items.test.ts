@@ -163,7 +163,7 @@ describe.each(['tcp 4E binary iq-r', 'udp 3E ascii iq-r'])('%s', (text) => {
           { item: 'U3E0\\G5:DINT', value: -70_000 },
           { item: 'U3E0\\HG6', value: 6 },
         ]
-        const results = await client.write(entries)
+        const results = await client.writeEach(entries)
         expect(results.map(briefWrite)).toEqual(entries.map(() => 'written'))
         expect(plc.read('U3\\G100:REAL')).toBe(1.5)
         expect([plc.read('U3\\G102'), plc.read('U3\\G103')]).toEqual([7, 8])
@@ -222,7 +222,7 @@ describe.each(['tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 'udp 3E binary q', 'ud
     test('does not take the others down when they are written', () =>
       withLine(text, {}, async (line) => {
         const { plc, client } = line
-        const results = await client.write({
+        const results = await client.writeEach({
           D0: 1,
           D1: 40_000,
           'D2:REAL': 1.5,
@@ -251,7 +251,7 @@ describe.each(['tcp 4E binary iq-r', 'tcp 3E ascii iq-f', 'udp 3E binary q', 'ud
     test('takes them down with allOrNothing: nothing is sent', () =>
       withLine(text, {}, async ({ plc, client }) => {
         const { requests } = plc.statistics
-        const results = await client.write({ D0: 1, D1: 40_000, D2: 2 }, { allOrNothing: true })
+        const results = await client.writeEach({ D0: 1, D1: 40_000, D2: 2 }, { allOrNothing: true })
         expect(Object.values(results).map(briefWrite)).toEqual(['ABORTED', 'BAD_VALUE', 'ABORTED'])
         expect(plc.statistics.requests).toBe(requests)
         expect(plc.read('D0')).toBe(0)

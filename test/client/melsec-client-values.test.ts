@@ -160,7 +160,7 @@ describe.each(kinds)('%s', (text) => {
   test('all values by one call are written into their words and bits, and nothing beside them', () =>
     withLine(text, {}, async (line) => {
       const entries = list.map(({ item, value }) => ({ item, value }))
-      const results = await line.client.write(entries, { readModifyWrite: true })
+      const results = await line.client.writeEach(entries, { readModifyWrite: true })
       expect(results.filter(({ ok }) => !ok)).toEqual([])
       for (const one of list) expect([one.item, rawOf(line, one)]).toEqual([one.item, expectedRaw(one)])
       expect(setOutside(line, list)).toEqual([])

@@ -91,7 +91,7 @@ describe.each(CODES)('%s', (code) => {
         'M201[3]': [true, false, true],
         'D300[150]': Array.from({ length: 150 }, (_, i) => i - 75),
       }
-      const results = await client.write(written)
+      const results = await client.writeEach(written)
       expect(Object.values(results).filter(({ ok }) => !ok)).toEqual([])
       expect(await client.readValues(Object.keys(written))).toEqual(Object.values(written))
       expect(['M4', 'M6', 'M200', 'M204', 'M99', 'M104', 'Y16'].map((item) => plc.read(item))).toEqual(
@@ -99,7 +99,7 @@ describe.each(CODES)('%s', (code) => {
       )
       plc.write('D50', 0x00f0)
       plc.write('D60', 1)
-      const masked = await client.write({ 'D50.0': true, 'D60.F': true }, { readModifyWrite: true })
+      const masked = await client.writeEach({ 'D50.0': true, 'D60.F': true }, { readModifyWrite: true })
       expect(Object.values(masked)).toMatchObject([{ ok: true }, { ok: true }])
       expect([plc.read('D50'), plc.read('D60')]).toEqual([0xf1, 1 - 0x8000])
     }))
@@ -160,7 +160,7 @@ describe.each(CODES)('FX3, %s', (code) => {
       expect(await client.readValues(items)).toEqual(expected)
       expect(client.profile.frame).toBe('1E')
       const written = { D8013: 7, M8034: true, 'M101[3]': [true, true, true], CS200: false }
-      expect(Object.values(await client.write(written)).every(({ ok }) => ok)).toBe(true)
+      expect(Object.values(await client.writeEach(written)).every(({ ok }) => ok)).toBe(true)
       expect(['SD8013', 'SM8034', 'M101', 'M103', 'M104', 'LCS0'].map((item) => plc.read(item))).toEqual([
         7,
         true,

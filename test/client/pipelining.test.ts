@@ -134,7 +134,7 @@ test('what two clients together send too much, the PLC throws away: timeouts, ne
     )
     for (const [i, result] of results) {
       if (result?.ok === true) expect(result.value).toBe(i)
-      else expect(['TIMEOUT', 'DISCONNECTED', 'OFFLINE', 'SILENT']).toContain(result?.error.code)
+      else expect(['TIMEOUT', 'OVERLOADED', 'DISCONNECTED', 'OFFLINE', 'SILENT']).toContain(result?.error.code)
     }
     expect(plc.statistics.discarded).toBeGreaterThan(0)
   }))

@@ -143,7 +143,7 @@ describe('MELSEC-Q', () => {
   test('bits of words of ZR are written within the limits of reading them first', () =>
     withLine('tcp 3E binary q', {}, async ({ plc, client }) => {
       const entries = words(100, 100, 'ZR').map((word) => ({ item: `${word}.3`, value: true }))
-      const results = await client.write(entries, { readModifyWrite: true })
+      const results = await client.writeEach(entries, { readModifyWrite: true })
       expect(results.flatMap((result) => (result.ok ? [] : [result.error.message]))).toEqual([])
       expect([plc.read('ZR0'), plc.read('ZR9900'), plc.errors.led]).toEqual([8, 8, false])
     }))

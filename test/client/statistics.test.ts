@@ -9,6 +9,7 @@ describe('counters', () => {
       answered: 0,
       refused: 0,
       timeouts: 0,
+      overloaded: 0,
       aborted: 0,
       protocolErrors: 0,
       stale: 0,

@@ -88,6 +88,7 @@ function outcomeOf(outcome: Outcome): string {
     case 'failed':
       return `failed ${outcome.error.code}`
     case 'unproved':
+    case 'tooLate':
       return outcome.kind
     default:
       return `${outcome.kind} ${outcome.sent ? 'sent' : 'unsent'}`

@@ -1,0 +1,100 @@
+/** A misspelt option of a call is refused before anything is sent: it would be the usual one, and nobody would notice. */
+import { afterAll, beforeAll, expect, test } from '@jest/globals'
+import { commands, createMelsecClient, createPlcSimulator, type MelsecClient, type PlcSimulator } from '../../src/index'
+import { clientOptions, failureOf, kind } from './line'
+
+let plc: PlcSimulator
+let client: MelsecClient
+
+beforeAll(async () => {
+  plc = createPlcSimulator({ profile: 'iq-r', labels: { Speed: { type: 'INT' } } })
+  await plc.listen()
+  client = createMelsecClient(clientOptions(kind('tcp 4E binary iq-r'), plc))
+  await client.connect()
+})
+afterAll(async () => {
+  await client.close()
+  await plc.close()
+})
+
+const head = { device: 'D', number: 0 } as const
+const entries = [{ item: 'D0', value: 1 }]
+
+/** Every call with options, and the options it has. */
+const calls: Readonly<Record<string, [run: (options: object) => unknown, own: string]>> = {
+  connect: [(x) => client.connect(x), 'timeout, signal'],
+  read: [(x) => client.read('D0', x), 'timeout, signal'],
+  'read a list': [(x) => client.read(['D0'], x), 'timeout, signal'],
+  readEach: [(x) => client.readEach({ a: 'D0' }, x), 'timeout, signal'],
+  readValues: [(x) => client.readValues(['D0'], x), 'timeout, signal'],
+  'plan().run': [(x) => client.plan(['D0']).run(x), 'timeout, signal'],
+  'monitor().read': [(x) => client.monitor(['D0']).read(x), 'timeout, signal'],
+  'monitor() with a label': [(x) => client.monitor(['D0', 'Speed']).read(x), 'timeout, signal'],
+  write: [(x) => client.write('D0', 1, x), 'readModifyWrite, allOrNothing, timeout, signal'],
+  'write an object': [(x) => client.write({ D0: 1 }, x), 'readModifyWrite, allOrNothing, timeout, signal'],
+  writeValues: [(x) => client.writeValues({ D0: 1 }, x), 'readModifyWrite, allOrNothing, timeout, signal'],
+  writeEach: [(x) => client.writeEach(entries, x), 'readModifyWrite, allOrNothing, timeout, signal'],
+  planWrite: [async (x) => client.planWrite(entries, x), 'readModifyWrite, allOrNothing'],
+  'planWrite().run': [(x) => client.planWrite(entries).run(x), 'timeout, signal'],
+  'planWrite().runEach': [(x) => client.planWrite(entries).runEach(x), 'timeout, signal'],
+  request: [
+    (x) => client.request(commands.readWords, { head, points: 1 }, x),
+    'form, subcommand, context, timeout, signal',
+  ],
+  requestByName: [(x) => client.requestByName('readWords', { head: 'D0', points: 1 }, x), 'form, timeout, signal'],
+  identify: [(x) => client.identify(x), 'timeout, signal'],
+  selfTest: [(x) => client.selfTest('AB', x), 'timeout, signal'],
+  clearError: [(x) => client.clearError(x), 'timeout, signal'],
+  'control.run': [(x) => client.control.run(x), 'force, clear, verify, timeout, signal'],
+  'control.stop': [(x) => client.control.stop(x), 'verify, timeout, signal'],
+  'control.pause': [(x) => client.control.pause(x), 'force, verify, timeout, signal'],
+  'control.latchClear': [(x) => client.control.latchClear(x), 'value, timeout, signal'],
+  'control.reset': [(x) => client.control.reset(x), 'timeout, signal'],
+  'labels.read': [(x) => client.labels.read('Speed', x), 'encoding, trim, asciiWordOrder, timeout, signal'],
+  'labels.write': [(x) => client.labels.write({ Speed: 1 }, x), 'encoding, trim, asciiWordOrder, timeout, signal'],
+  'labels.writeEach': [
+    (x) => client.labels.writeEach({ Speed: 1 }, x),
+    'encoding, trim, asciiWordOrder, timeout, signal',
+  ],
+  'memory.read': [(x) => client.memory.read(0, 1, x), 'timeout, signal'],
+  'memory.write': [(x) => client.memory.write(0, [1], x), 'timeout, signal'],
+  'module.read': [(x) => client.module('Q62DA', { startIo: 0 }).read(0, 1, x), 'timeout, signal'],
+  'module.write': [(x) => client.module('Q62DA', { startIo: 0 }).write(0, [1], x), 'timeout, signal'],
+  'files.list': [(x) => client.files.list('4:/', x), 'timeout, signal'],
+  'files.stat': [(x) => client.files.stat('4:/A.CSV', x), 'timeout, signal'],
+  'files.read': [(x) => client.files.read('4:/A.CSV', x), 'password, onProgress, limit, timeout, signal'],
+  'files.readStream': [async (x) => client.files.readStream('4:/A', x), 'password, onProgress, timeout, signal'],
+  'files.write': [
+    (x) => client.files.write('4:/A.CSV', Buffer.of(1), x),
+    'password, onProgress, mode, size, timeout, signal',
+  ],
+  'files.copy': [(x) => client.files.copy('4:/A', '4:/B', x), 'password, destinationPassword, timeout, signal'],
+  'files.remove': [(x) => client.files.remove('4:/A', x), 'password, timeout, signal'],
+  'files.setAttribute': [(x) => client.files.setAttribute('4:/A', 'readOnly', x), 'password, timeout, signal'],
+  'files.setDate': [
+    (x) => client.files.setDate('4:/A', { year: 2024, month: 1, day: 1, hour: 0, minute: 0, second: 0 }, x),
+    'timeout, signal',
+  ],
+  'files.closeAll': [(x) => client.files.closeAll(x), 'timeout, signal'],
+}
+
+test.each(Object.entries(calls))('%s', async (_name, [run, own]) => {
+  const { requests } = plc.statistics
+  for (const misspelt of ['allOrNoting', 'timeOut', 'Force']) {
+    const error = await failureOf(Promise.resolve().then(() => run({ [misspelt]: true })))
+    expect(error).toMatchObject({
+      code: 'BAD_OPTION',
+      outcome: 'notSent',
+      field: misspelt,
+      message: `There is no option ${misspelt}: use ${own}.`,
+    })
+  }
+  expect(plc.statistics.requests).toBe(requests)
+})
+
+test('options of other calls are no options either', async () => {
+  const stray = { timeout: 100, allOrNothing: true }
+  expect(await failureOf(client.read('D0', stray))).toMatchObject({ code: 'BAD_OPTION', field: 'allOrNothing' })
+  const early = { timeout: 100 } as object
+  expect(() => client.planWrite(entries, early)).toThrow('There is no option timeout')
+})

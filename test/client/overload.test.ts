@@ -1,0 +1,90 @@
+/** More is asked than the PLC answers: what waits too long is told as that, and everything else goes on. */
+import { describe, expect, test } from '@jest/globals'
+import { Bench, type Tracked } from './bench'
+import { type Script, silent } from './scripted-plc'
+
+const ANSWER = 40
+
+/** One request after another, each in so many ms, as a PLC with that scan time does. */
+function slowPlc(bench: Bench): Script {
+  let freeAt = 0
+  return ({ reply }) => {
+    freeAt = Math.max(freeAt, bench.clock.now()) + ANSWER
+    bench.clock.timer(freeAt - bench.clock.now(), reply)
+  }
+}
+
+function count(calls: readonly Tracked<unknown>[]): Record<string, number> {
+  const counts: Record<string, number> = {}
+  for (const { told } of calls) {
+    const what = typeof told === 'string' ? told : 'done'
+    counts[what] = (counts[what] ?? 0) + 1
+  }
+  return counts
+}
+
+describe.each(['3E', '4E'] as const)(
+  'seven callers every 200 ms, a write every second, a PLC that needs 40 ms (%s)',
+  (frame) => {
+    test('the connection lives, every write is done, and what could not be answered in time is told as that', async () => {
+      const bench = await Bench.connected({ frame, timeout: 3000 })
+      bench.plc.script = slowPlc(bench)
+      const reads: Tracked<unknown>[][] = Array.from({ length: 7 }, () => [])
+      const writes: Tracked<unknown>[] = []
+      for (let now = 0; now < 40_000; now += 200) {
+        for (const [caller, asked] of reads.entries()) asked.push(bench.read(caller, { caller }))
+        if (now % 1000 === 0) writes.push(bench.write(9000, now))
+        await bench.pass(200)
+      }
+      await bench.pass(5000)
+      expect(count(writes)).toEqual({ done: 40 })
+      const counts = reads.map(count)
+      const done = counts.map((each) => each.done ?? 0)
+      // 25 answers a second, but for the writes; nobody gets less than the others.
+      expect(done.reduce((sum, each) => sum + each, 0)).toBeGreaterThan(900)
+      expect(Math.max(...done) - Math.min(...done)).toBeLessThanOrEqual(2)
+      expect(new Set(counts.flatMap((each) => Object.keys(each)))).toEqual(new Set(['done', 'OVERLOADED notSent']))
+      expect(bench.states).toEqual([])
+      expect(bench.connection.statistics).toMatchObject({ connects: 1, disconnects: 0, timeouts: 0, protocolErrors: 0 })
+      const refused = reads.flat().find(({ error }) => error !== undefined)
+      expect(refused?.error?.message).toMatch(/\d+ requests wait, and the PLC needs about 40 ms for each/)
+    })
+  },
+)
+
+test('a PLC that does not answer is silent, not overloaded', async () => {
+  const bench = await Bench.connected({ frame: '4E' })
+  bench.plc.script = silent
+  const calls = [bench.read(1), bench.read(2), bench.read(3)]
+  await bench.pass(1000)
+  expect(calls.map(({ told }) => told)).toEqual(['TIMEOUT unknown', 'TIMEOUT notSent', 'TIMEOUT notSent'])
+  expect(bench.connection.statistics.overloaded).toBe(0)
+})
+
+test('once sent, a request has at least a tenth of its time', async () => {
+  const bench = await Bench.connected({ frame: '4E' })
+  const sent: number[] = []
+  bench.plc.script = ({ device, reply }) => {
+    sent.push(device)
+    // Round trips of nothing: only the share keeps the late one back.
+    if (device === 1) bench.clock.timer(905, reply)
+    else reply()
+  }
+  await bench.pass(0)
+  bench.plc.script({ device: 0, reply() {} } as never)
+  const [first, late, patient] = [bench.read(1), bench.read(2), bench.read(3, { timeout: 5000 })]
+  await bench.pass(1000)
+  expect([first.told, late.told, patient.told]).toEqual([{ values: [1] }, 'TIMEOUT notSent', { values: [3] }])
+  expect(sent).toEqual([0, 1, 3])
+})
+
+test('a call of many requests does not keep those of others waiting', async () => {
+  const bench = await Bench.connected({ frame: '3E', timeout: 10_000 })
+  bench.plc.script = slowPlc(bench)
+  const many = Array.from({ length: 60 }, (_, i) => bench.read(i, { caller: 'many' }))
+  await bench.pass(ANSWER)
+  const other = bench.read(5000, { caller: 'other' })
+  await bench.pass(3 * ANSWER)
+  expect(other.told).toEqual({ values: [5000] })
+  expect(many.filter(({ told }) => told !== 'pending').length).toBeLessThan(5)
+})
