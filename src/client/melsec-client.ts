@@ -305,13 +305,8 @@ export class MelsecClient {
     return byName(names, (await this.#named(names, items, options)).map(plainValue))
   }
 
-  async #named(
-    names: readonly string[],
-    items: Readonly<Record<string, Item>>,
-    options: CallOptions | undefined,
-  ): Promise<ReadResult[]> {
-    const results = await this.#items.prepare(names.map((name) => items[name] as Item)).run(options)
-    return nameResults(results, names)
+  async #named(names: readonly string[], items: Readonly<Record<string, Item>>, call?: CallOptions) {
+    return nameResults(await this.#items.prepare(names.map((name) => items[name] as Item)).run(call), names)
   }
 
   /**
@@ -488,8 +483,6 @@ export class MelsecClient {
   async clearError(options?: CallOptions): Promise<void> {
     await this.#send(commands.clearError, {}, options)
   }
-
-  /** Read Type Name, or one word where the port has no such command: harmless, and a refusal is an answer, too. */
 }
 
 const ITEMS = 'Items to read are one item, a list of items, or an object of items by name'

@@ -62,7 +62,7 @@ describe('what the PLC refuses', () => {
       addresses.map((item) => ({ item, value: 1 })),
       { allOrNothing: true },
     )
-    const results = await plan.run()
+    const results = await plan.runEach()
     const refused = results.filter((result) => !result.ok && result.error.outcome === 'refused')
     expect(refused.length).toBeGreaterThan(1)
     expect(messageOf(refused[0])).toMatch(/^D99999999, D0, .* and \d+ more, written together/)

@@ -292,3 +292,34 @@ test('it is nowhere to be seen: options, errors, states, traces', async () => {
   expect(text).not.toContain(Buffer.from('Secret').toString('hex'))
   expect(text).not.toContain('83,101,99,114,101,116')
 })
+
+describe('a PLC that says nothing to Read Type Name', () => {
+  test('is unlocked on each connection, before its probe', async () => {
+    const { plc, client, seen } = await pair({ timeout: 400 })
+    plc.faults.add({ kind: 'silence', commands: ['readTypeName'] })
+    plc.write('D100', 7)
+    expect(await client.read('D100', { timeout: 5000 })).toBe(7)
+    expect(seen.filter((entry) => !entry.startsWith('readTypeName'))).toEqual([
+      'unlock 0',
+      'unlock 0',
+      'readWords 0',
+      'readWords 0',
+    ])
+    expect(client.statistics).toMatchObject({ connects: 2, disconnects: 1 })
+  })
+
+  test('needs no probe behind the password: the first request is sent once', async () => {
+    const { client, seen } = await pair({ probe: 'none', allowWrites: true })
+    await client.write('D100', 7)
+    expect(seen).toEqual(['unlock 0', 'writeWords 0'])
+  })
+
+  test('a wrong password is sent once, whatever the probe', async () => {
+    for (const probe of ['auto', 'read', 'none'] as const) {
+      const { client, seen } = await pair({ probe, password: WRONG })
+      expect(await rejection(client.read('D100'))).toMatchObject({ outcome: 'notSent' })
+      expect(await rejection(client.read('D100'))).toMatchObject({ outcome: 'notSent' })
+      expect(seen).toHaveLength(1)
+    }
+  })
+})

@@ -89,6 +89,13 @@ describe('settings of a connection', () => {
     })
   })
 
+  test.each(['auto', 'typeName', 'read', 'none'])('the proof of a connection is chosen: %s', (probe) => {
+    const options = read({ host: 'plc', port: 5007, profile: 'iq-r', probe })
+    expect(options).toMatchObject({ probe })
+    expect(createMelsecClient(options).options.probe).toBe(probe)
+    expect(() => read({ host: 'plc', port: 5007, profile: 'iq-r', probe: 'ping' })).toThrow()
+  })
+
   test('permissions are given by true and by nothing else', () => {
     const given = { host: 'plc', port: '1', profile: 'q', allowWrites: 'true', allowControl: 1 }
     expect(read(given)).toMatchObject({ allowWrites: false, allowControl: false })
