@@ -70,9 +70,9 @@ function isAddress(value: unknown): value is JwAddress {
   return typeof value === 'object' && value !== null && 'segment' in value
 }
 
-/** As a JW numbers its bytes: octal. */
+/** As a JW numbers them: files in hexadecimal, the bytes of a file in octal. */
 function addressText({ segment, address, extended }: JwAddress): string {
-  return `file ${segment.toString(8)}, byte ${address.toString(8).padStart(6, '0')} octal${extended === true ? ' (extended)' : ''}`
+  return `file ${hex(segment, 2)}H, byte ${address.toString(8).padStart(6, '0')} octal${extended === true ? ' (extended)' : ''}`
 }
 
 function explainRequest(explainer: Explainer, total: number): FrameExplanation {

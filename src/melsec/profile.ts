@@ -66,6 +66,8 @@ export interface Refusals {
   readonly deviceNumber: number
   /** Device name this CPU does not have. */
   readonly deviceName: number
+  /** The same in an extension specification (subcommands 008x). */
+  readonly extendedDeviceName: number
   /** Bit units on a word device. */
   readonly bitUnitsOfWordDevice: number
   /** The module or network behind an extension is not there, or cannot be reached. */

@@ -104,7 +104,9 @@ function endCodeOf(
   const bits = codecBits(found.command, found.form, subcommand)
   const reader = readerOf(protocol.code, body.subarray(protocol.dataAt), bits)
   const culprit = culpritOf(found.command.request, reader)
-  if (culprit === deviceAddress) return refusals.deviceName
+  if (culprit === deviceAddress) {
+    return found.form.startsWith('extended') ? refusals.extendedDeviceName : refusals.deviceName
+  }
   if (culprit === setReset) return requestErrors.bitData
   // The other fields of commands that have limits are points and counts: here one of them is 0.
   const [limit] = limitsOf(protocol.profile, found.command.name as CommandName, found.form, protocol.code)

@@ -44,6 +44,12 @@ function dataOf({ rows }: FrameExplanation): Buffer {
   return Buffer.concat(data.map(({ value }) => value as Buffer))
 }
 
+// JW300 manual: file numbers are hexadecimal, the addresses in a file octal.
+test('a file number is hexadecimal, its byte address octal', () => {
+  const { rows } = explainJwFrame(Buffer.from('4700241a00080400', 'hex'))
+  expect(rows.find(({ name }) => name === 'head')?.text).toBe('file 1AH, byte 004000 octal')
+})
+
 describe('frames of the manuals', () => {
   test.each(vectors.filter(({ side }) => side === 'request'))('$id', (vector) => {
     const explanation = explained(bytesOf(vector))
@@ -71,7 +77,7 @@ describe('words', () => {
       'attr: 0',
       'command: 24H (Read data memory)',
       'result: 00H (carried out)',
-      'head: file 0, byte 004000 octal (repeats the request)',
+      'head: file 00H, byte 004000 octal (repeats the request)',
       'length: 4 (repeats the request)',
       'data: 00 4F 32 01',
     ])

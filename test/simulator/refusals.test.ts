@@ -20,6 +20,16 @@ describe('end codes for what a client can send', () => {
     ['data too long', 'iq-r', hex('0104 0000 000000 a8 0100 00'), 0xc061],
     ['fewer values than points', 'iq-r', hex('0114 0000 000000 a8 0200 0100'), 0xc061],
     ['unknown device code on iQ-R', 'iq-r', hex('0104 0000 000000 99 0100'), 0x4030],
+    // Measured by others on an R120PCPU: an extension specification in the wrong order.
+    ['unknown device code with 0080 on iQ-R', 'iq-r', hex('0104 8000 000000000000 640000 a8 0100'), 0xc05b],
+    ['unknown device code with 0082 on iQ-R', 'iq-r', hex('0104 8200 0000 00000000 9900 0000 0000 00 0100'), 0xc05b],
+    ['the right order of the same', 'iq-r', hex('0104 8000 0000 640000 a8 0000 0000 00 0100'), 0],
+    [
+      '97 points of Read Random with 0080',
+      'iq-r',
+      hex(`0304 8000 61 00 ${'0000 000000 a8 0000 0000 00'.repeat(97)}`),
+      0xc054,
+    ],
     ['unknown device code on iQ-F', 'iq-f', hex('0104 0000 000000 99 0100'), 0xc05c],
     ['unknown device code on L', 'l', hex('0104 0000 000000 99 0100'), 0xc05b],
     ['set/reset that is neither', 'iq-r', hex('0214 0100 01 000000 90 02'), 0xc060],

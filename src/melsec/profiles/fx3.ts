@@ -53,6 +53,7 @@ export const fx3: Profile = profileOver1e(
     refusals: {
       deviceNumber: 0x57,
       deviceName: 0x56,
+      extendedDeviceName: 0x56,
       bitUnitsOfWordDevice: 0x58,
       extension: 0x56,
       command: 0x50,

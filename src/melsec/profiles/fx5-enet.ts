@@ -85,6 +85,7 @@ export const fx5Enet: Profile = {
   refusals: {
     ...iqF.refusals,
     deviceName: 0xc05b,
+    extendedDeviceName: 0xc05b,
     length: 0xc057,
     source: 'end codes 47.4, Ethernet module (C057 and C061 have the same text); remote control background',
   },

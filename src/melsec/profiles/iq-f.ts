@@ -157,6 +157,7 @@ export const iqF: Profile = {
   refusals: {
     deviceNumber: 0xc056,
     deviceName: 0xc05c,
+    extendedDeviceName: 0xc05c,
     bitUnitsOfWordDevice: 0xc05c,
     extension: 0xc060,
     command: 0xc059,

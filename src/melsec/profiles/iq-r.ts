@@ -80,6 +80,7 @@ export const iqR: Profile = {
   refusals: {
     deviceNumber: 0x4031,
     deviceName: 0x4030,
+    extendedDeviceName: 0xc05b,
     bitUnitsOfWordDevice: 0xc05c,
     extension: 0x4043,
     command: 0xc059,
@@ -88,7 +89,7 @@ export const iqR: Profile = {
     notInStop: 0x4013,
     remote: 0x408b,
     source:
-      'device number and name measured by others on R120PCPU; the others background (error code lists of CPU and Ethernet modules)',
+      'device number and name, also in an extension specification, measured by others on R120PCPU; the others background (error code lists of CPU and Ethernet modules)',
   },
   inFlight: {
     tcp: 1,

@@ -119,6 +119,7 @@ export const q: Profile = {
   refusals: {
     deviceNumber: 0x4031,
     deviceName: 0xc05b,
+    extendedDeviceName: 0xc05b,
     bitUnitsOfWordDevice: 0xc05c,
     extension: 0xc070,
     command: 0xc059,
