@@ -1,5 +1,5 @@
 import { type DataCode, explainFrame, explainJwFrame, formatExplanation, type ProfileId } from '../index'
-import { bytesOfHex, bytesOfText } from './bytes'
+import { bytesOfText, pastedBytes } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addDigitOptions, choice, jsonOption, profileOption } from './connection-options'
 import { exitCodes } from './exit-code'
@@ -12,7 +12,8 @@ const examples = [
   "decode --text '500000FF03FF000018001004010000D*0001000001'",
   'decode --frame 1E 01FF0A00640000002044 0300',
   'decode --frame JW 4700240000080400',
-  'decode -            (reads the digits from the standard input)',
+  "decode '<Buffer 50 00 00 ff ff 03 00 0c 00 10 00 01 04 00 00 64 00 00 a8 01 00>'",
+  'decode -            (reads the digits, or a hex dump, from the standard input)',
 ]
 
 type ExplainOptions = NonNullable<Parameters<typeof explainFrame>[1]>
@@ -37,7 +38,10 @@ export const decodeCommand: MakeCommand = (run) => {
       'Explain a captured frame field by field: a request or a response, in 3E, 4E or station extension (told by the frame itself), ' +
         '1E or 4C format 5 or Sharp JW (to be said). What the values of a response mean is in its request: give that too.',
     )
-    .argument('<hex...>', 'bytes of the frame as hexadecimal digits; - for the standard input')
+    .argument(
+      '<hex...>',
+      "bytes of one or several frames: hexadecimal digits, a hex dump, <Buffer ...> of Node.js, b'...' of Python; - for the standard input",
+    )
     .option('--request <hex>', 'the request that the frame answers')
     .option('--registration <hex>', 'the Entry Monitor Device before it, when the frame answers an Execute Monitor')
     .option('--text', 'the arguments are the characters of frames in ASCII code, not hexadecimal digits')
@@ -59,10 +63,10 @@ export const decodeCommand: MakeCommand = (run) => {
 
 async function decode(terminal: Terminal, texts: readonly string[], options: DecodeOptions): Promise<number> {
   const given = texts.length === 1 && texts[0] === '-' ? await terminal.input() : texts.join(' ')
-  const bytes = (text: string, what: string) => (options.text === true ? bytesOfText(text) : bytesOfHex(text, what))
-  const settings = explainOptions(options, bytes)
+  const pieces = (text: string, what: string) => (options.text === true ? [bytesOfText(text)] : pastedBytes(text, what))
+  const settings = explainOptions(options, (text, what) => Buffer.concat(pieces(text, what)))
   const explain = options.frame === 'JW' ? explainJwFrame : explainFrame
-  const frames = explainAll(bytes(given, 'the frame'), (rest) => explain(rest, settings))
+  const frames = explainPieces(pieces(given, 'the frame'), (rest) => explain(rest, settings))
   const wrong = frames.some(({ fault }) => fault !== undefined)
   if (options.json === true) terminal.out(json({ frames }))
   else terminal.out(frames.map(formatExplanation).join('\n\n'))
@@ -83,6 +87,16 @@ function explainOptions(options: DecodeOptions, bytes: (text: string, what: stri
     ...(request === undefined ? {} : { request: bytes(request, 'the request') }),
     ...(registration === undefined ? {} : { registration: bytes(registration, 'the registration') }),
   }
+}
+
+/**
+ * What was pasted in pieces, such as several Buffers, may be pieces of one stream, cut anywhere. Where that makes no right
+ * frames each piece is explained for itself, so that one that is broken does not hide the next.
+ */
+function explainPieces(pieces: readonly Buffer[], explain: (rest: Buffer) => Explanation): readonly Explanation[] {
+  const joined = explainAll(Buffer.concat(pieces), explain)
+  if (pieces.length === 1 || joined.every(({ fault }) => fault === undefined)) return joined
+  return pieces.flatMap((piece) => explainAll(piece, explain))
 }
 
 /** A capture of a TCP stream may hold several frames, one behind the other. */

@@ -61,6 +61,8 @@ export interface Annotation {
   readonly message: Readonly<Record<string, unknown>>
   /** Bytes that were read. */
   readonly used: number
+  /** What a receiver refuses although it can be read, as sentences. */
+  readonly notes: readonly string[]
   readonly fault?: Fault
 }
 
@@ -78,11 +80,11 @@ export function annotate(shape: Shape, bytes: Buffer, options: AnnotateOptions):
   const message: Bag = {}
   try {
     walk.shape(shape, message, '')
-    return { rows: walk.rows, message, used: walk.position }
+    return { rows: walk.rows, message, used: walk.position, notes: walk.notes }
   } catch (error) {
     if (!(error instanceof ProtocolError)) throw error
     const fault = { ...faultOf(error, options.base ?? 0), name: walk.at }
-    return { rows: walk.rows, message, used: walk.done, fault }
+    return { rows: walk.rows, message, used: walk.done, notes: walk.notes, fault }
   }
 }
 
@@ -96,6 +98,7 @@ export function faultOf(error: ProtocolError, base: number): Fault {
 
 class Walk {
   readonly rows: AnnotatedRow[] = []
+  readonly notes: string[] = []
   readonly #bytes: Buffer
   readonly #reader: Reader
   readonly #options: AnnotateOptions
@@ -183,7 +186,8 @@ class Walk {
   /** Reads one field with the decoder itself, so that its checks hold here too. */
   #leaf(name: string, field: Exclude<Field, { kind: 'list' | 'each' }>): unknown {
     const { context } = this.#options
-    const value = this.#value(name.slice(name.lastIndexOf('.') + 1), field)
+    const value = this.#value(name.slice(name.lastIndexOf('.') + 1), withoutMultiple(field))
+    this.#checkMultiple(name, field, value)
     const secret = isSecret(field, context)
     const shown = secret ? MASK : value
     const from = this.done
@@ -200,6 +204,13 @@ class Walk {
       ...(secret ? { secret } : {}),
     })
     return value
+  }
+
+  /** It says nothing about where the next field stands, so it is no end of reading. */
+  #checkMultiple(name: string, field: Field, value: unknown): void {
+    const { multipleOf } = 'multipleOf' in field ? field : {}
+    if (multipleOf === undefined || Number(value) % multipleOf === 0) return
+    this.notes.push(`${name} is ${Number(value)}, which is no multiple of ${multipleOf}: it is refused.`)
   }
 
   /** The value of a field, of a derived one too: `decode` checks those and keeps them to itself. */
@@ -221,6 +232,10 @@ class Walk {
         return value
     }
   }
+}
+
+function withoutMultiple<F extends Field>(field: F): F {
+  return 'multipleOf' in field ? { ...field, multipleOf: 1 } : field
 }
 
 /** What an echo repeats: it was found equal, so it is the request's. */

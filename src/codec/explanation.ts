@@ -102,6 +102,7 @@ export class Explainer {
     for (const row of found.rows) {
       this.#rows.push(...refine(row, this.#bytes.subarray(row.offset, row.offset + row.length), found.message))
     }
+    this.notes.push(...found.notes)
     this.#position = base + found.used
     this.#fault = found.fault
     return found.message

@@ -10,7 +10,7 @@ import { pcTypeCodes } from './a-compatible-type'
 import { formatDevice } from './address'
 import type { DeviceAddress } from './device'
 import { FORM_XY_OCTAL } from './device-codec'
-import { noteUncertainDigits, type Settings } from './explain-body'
+import { noteBitUnits, noteUncertainDigits, type Settings } from './explain-body'
 import type { ExplainFrameOptions, Known } from './explain-frame'
 import { commandText, describeHead, endCodeText } from './explain-head'
 import { describeValue, devicesOf, splitRow, summaryOf } from './explain-values'
@@ -75,9 +75,12 @@ function explainRequest(explainer: Explainer, settings: Settings, total: number)
   if (command.name === 'writeBits') takeDummy(explainer, code, message)
   const devices = addressesOf(message).map(({ device }) => device)
   noteUncertainDigits(explainer, settings, devices)
+  if (BIT_UNITS.includes(command.name)) noteBitUnits(explainer, devices, 'use command 01H, 03H or 05H')
   const title = [command.title, summaryOf(command, message, settings)].filter((part) => part !== '').join(', ')
   return end(explainer, { ...about, title: `${nameOf('request', code)}: ${title}`, command: command.name }, total)
 }
+
+const BIT_UNITS: readonly string[] = ['readBits', 'writeBits', 'writeRandomBits']
 
 /** A request of 1E has no length, so what stands behind it may be the next one. */
 function end(explainer: Explainer, about: Parameters<Explainer['end']>[0], total: number): FrameExplanation {

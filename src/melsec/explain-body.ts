@@ -4,7 +4,7 @@ import type { Context, DataCode, Shape } from '../codec/codec'
 import type { Explainer } from '../codec/explanation'
 import { type BodyLayout, commandFields, plainBody } from './body'
 import type { Command } from './command'
-import type { DeviceName } from './device'
+import { type DeviceName, deviceInfo } from './device'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
 import { devicesOf as usedDevices } from './device-uses'
 import { commandText, describeHead, subcommandText } from './explain-head'
@@ -120,11 +120,12 @@ function explainKnown(
   const bits = codecBits(command, form, subcommand) | digitBits(settings)
   const message = readData(explainer, settings, command.request, { form: bits })
   const summary = summaryOf(command, message, settings)
-  noteUncertainDigits(
-    explainer,
-    settings,
-    usedDevices(command, message).map(({ address }) => address.device),
-  )
+  const used = usedDevices(command, message).map(({ address }) => address.device)
+  noteUncertainDigits(explainer, settings, used)
+  if (command.unit === 'bit') {
+    const { bitUnitsOfWordDevice } = settings.profile.refusals
+    noteBitUnits(explainer, used, `${hex(bitUnitsOfWordDevice, 4)}H: use subcommand ${hex(subcommand & ~1, 4)}H`)
+  }
   if (command.sender === 'plc') explainer.notes.push('The PLC sends this of its own accord; nobody answers it.')
   return {
     command,
@@ -229,4 +230,12 @@ export function noteUncertainDigits(explainer: Explainer, settings: Settings, us
   if (settings.asciiZr === undefined && used.includes('ZR')) {
     explainer.notes.push('ZR is read as decimal digits; the manuals disagree, see asciiZr.')
   }
+}
+
+/** Bit units of a word device look right, and no PLC carries them out. */
+export function noteBitUnits(explainer: Explainer, used: readonly DeviceName[], advice: string): void {
+  const names = new Set(used.filter((device) => deviceInfo(device).unit !== 'bit'))
+  if (names.size === 0) return
+  const wordDevices = [...names].join(', ')
+  explainer.notes.push(`${wordDevices} has words, and the PLC refuses bit units of it (${advice}, word units).`)
 }

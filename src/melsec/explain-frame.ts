@@ -20,7 +20,7 @@ import { describeHead, endCodeText } from './explain-head'
 import { frame3e } from './frame-3e'
 import { type FrameName, frameFacts, type SlmpFrameName } from './frames'
 import { asciiXyOf, type Profile, type ProfileId, resolveProfile } from './profile'
-import { ownStation } from './route'
+import { isConnectedStation, ownStation } from './route'
 
 export type { AnnotatedRow, Fault } from '../codec/annotate'
 export { type Direction, type FrameExplanation, formatExplanation } from '../codec/explanation'
@@ -181,11 +181,25 @@ function explain3e(bytes: Buffer, known: Known, detected: Subheader, options: Ex
     direction === 'request'
       ? explainRequest(explainer, settings)
       : explainResponse(explainer, settings, options, about.serial)
+  if (direction === 'request') noteConnectedOnly(explainer, settings, rest.about.command, head)
   if (announced !== undefined && lengthEnd + announced > bytes.length) {
     explainer.cutShort(lengthEnd + announced - bytes.length, announced)
   }
   const title = [nameOf(detected), rest.title].filter((part) => part !== '').join(': ')
   return explainer.end({ title, ...about, ...rest.about }, bytes.length, rest.secret)
+}
+
+/** Commands for the connected station only, sent elsewhere. */
+function noteConnectedOnly(
+  explainer: Explainer,
+  { commands }: Settings,
+  name: string | undefined,
+  { network, station, extensionStation = 0 }: Readonly<Record<string, unknown>>,
+): void {
+  const command = Object.values(commands).find((one) => one.name === name)
+  if (command?.to !== 'connected' || typeof network !== 'number' || typeof station !== 'number') return
+  if (isConnectedStation({ network, station, extensionStation: Number(extensionStation) })) return
+  explainer.notes.push(`${command.title} is for the connected station only (network 0, station 255); others refuse it.`)
 }
 
 /** Where the data length ends: what it counts begins there. */

@@ -9,6 +9,16 @@ beforeAll(build, 120_000)
 const REQUEST = '500000ffff03000c00100001040000640000a80200'
 const ANSWER = 'd00000ffff03000600000005 00ffff'.replaceAll(' ', '')
 
+/** As Python prints a byte that is no printable character. */
+function escaped(byte: number): string {
+  return byte === 0x64 ? 'd' : `\\x${byte.toString(16).padStart(2, '0')}`
+}
+
+/** Two bytes together. */
+function grouped(pairs: string): string {
+  return pairs.replace(/(..) (..)/g, '$1$2')
+}
+
 describe('decode', () => {
   test('explains a request', async () => {
     const { code, out, err } = await run('decode', REQUEST)
@@ -51,6 +61,79 @@ describe('decode', () => {
     expect((await run('decode', spaced.replaceAll(' ', ':').toUpperCase())).out).toBe(expected)
     expect((await run('decode', spaced.replace(/\S+/g, '0x$&').replaceAll(' ', ', '))).out).toBe(expected)
     expect((await runWith({ input: `${spaced}\n` }, 'decode', '-')).out).toBe(expected)
+  })
+
+  const BYTES = Buffer.from(REQUEST, 'hex')
+  const pairs = REQUEST.replace(/../g, '$& ').trim()
+  const tail = [pairs.slice(0, 47), pairs.slice(48)] as const
+  const python = `b'${Array.from(BYTES, (byte) => (byte === 0x50 ? 'P' : byte === 0x0c ? '\\x0c' : escaped(byte))).join('')}'`
+  test.each([
+    ['a Buffer of Node.js', `<Buffer ${pairs}>`],
+    ['a Buffer in a log', `sent: <Buffer ${pairs}> at 12:00`],
+    ['bytes of Python', python],
+    ['bytes of Python in a call', `s.send(b"${python.slice(2, -1)}")`],
+    [
+      'a dump of Wireshark',
+      `0000  ${tail[0]}   P...............\n0010  ${tail[1]}                                    ...d.`,
+    ],
+    ['a dump without characters', `0000 ${tail[0]}\n0010 ${tail[1]}`],
+    ['xxd', `00000000: ${grouped(tail[0])}  P...............\n00000010: ${grouped(tail[1])}            ...d.`],
+    [
+      'hexdump -C',
+      `00000000  ${tail[0].slice(0, 23)}  ${tail[0].slice(24)}  |P...............|\n00000010  ${tail[1]}  |....|\n00000015\n`,
+    ],
+    ['tcpdump -X', `\t0x0000:  ${grouped(tail[0])}  P...............\n\t0x0010:  ${grouped(tail[1])}            ...`],
+    ['a dump whose lines a shell has joined', `0000 ${tail[0]} 0010 ${tail[1]}`],
+  ])('takes bytes as they are pasted: %s', async (_what, text) => {
+    const expected = (await runHere(['decode', REQUEST])).out
+    expect(await runHere(['decode', text])).toMatchObject({ code: 0, out: expected, err: '' })
+    expect((await runHere(['decode', '-'], undefined, text)).out).toBe(expected)
+    expect((await runHere(['decode', ANSWER, '--request', text])).out).toMatch(/D100\.\.D101: 5 -1$/m)
+  })
+
+  test('explains several pasted frames, and one of them that is broken does not hide the next', async () => {
+    const two = `<Buffer ${pairs}>\n<Buffer ${pairs}>`
+    expect(JSON.parse((await runHere(['decode', two, '--json'])).out).frames).toHaveLength(2)
+    const cut = `<Buffer ${pairs.slice(0, 29)}>, <Buffer ${pairs.slice(30)}>`
+    expect((await runHere(['decode', cut])).out).toBe((await runHere(['decode', REQUEST])).out)
+    const broken = await runHere(['decode', `<Buffer 51 00 00>\n<Buffer ${pairs}>`])
+    expect(broken.code).toBe(5)
+    expect(broken.out).toMatch(/Read \(word units\), D100, 2 points/)
+    const dumps = `0000  ${tail[0]}\n0010  ${tail[1]}\n\n0000  ${tail[0]}\n0010  ${tail[1]}\n`
+    expect(JSON.parse((await runHere(['decode', dumps, '--json'])).out).frames).toHaveLength(2)
+  })
+
+  test.each([
+    [`<Buffer ${pairs} ... 12 more bytes>`, /more bytes/],
+    ['<Buffer >', /holds no bytes/],
+    ["b''", /there are no bytes/],
+    ["b'P\\q'", /no escape/],
+    [`0000  ${tail[0]}\n0020  ${tail[1]}`, /begins at 20, the one before ends at 10/],
+  ])('%j is refused', async (text, message) => {
+    const { code, err } = await runHere(['decode', text])
+    expect(code).toBe(2)
+    expect(err).toMatch(message)
+  })
+
+  test('notes what the PLC refuses although it can be read', async () => {
+    const bitUnits = await runHere(['decode', '500000FFFF03000C001000010401004C0300A80100', '--profile', 'iq-f'])
+    expect(bitUnits.code).toBe(0)
+    expect(bitUnits.out).toMatch(/Note: D has words, .*\(C05CH: use subcommand 0000H, word units\)/)
+    const of1e = await runHere(['decode', '--frame', '1E', '00FF0A000A000000204401 00'])
+    expect(of1e.out).toMatch(/Note: D has words/)
+    const right = await runHere(['decode', '500000FFFF03000C001000010401004C0300900100'])
+    expect(right.out).not.toContain('Note')
+    const elsewhere = await runHere(['decode', '50000103FF03000600100017160000'])
+    expect(elsewhere.out).toMatch(/Note: Clear Error is for the connected station only/)
+    expect((await runHere(['decode', '500000FFFF03000600100017160000'])).out).not.toContain('Note')
+  })
+
+  test('an odd offset of Read File is explained, and what follows it', async () => {
+    const { code, out } = await runHere(['decode', '500000FFFF03000E00100028180000 0000 03000000 0A00'])
+    expect(code).toBe(0)
+    expect(out).toMatch(/offset +3 /)
+    expect(out).toMatch(/byteCount +10 /)
+    expect(out).toMatch(/Note: offset is 3, which is no multiple of 2/)
   })
 
   test('takes the characters of a frame in ASCII code, and says when they were meant', async () => {
