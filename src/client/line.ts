@@ -312,11 +312,14 @@ export class Line<Head> {
       return
     }
     if (!isProbe) this.#owner.counters.add('timeouts')
+    const causes = this.#causes()
     if (!sent) {
-      job.fail(failure.notSentInTime(job.exchange.title))
+      const error = failure.notSentInTime(job.exchange.title)
+      job.fail(error)
+      // The attempt ends with its first request: nothing else is due on a line that nobody may use yet.
+      if (isProbe) this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
       return
     }
-    const causes = this.#causes()
     this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
   }
 

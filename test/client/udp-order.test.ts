@@ -184,6 +184,22 @@ describe.each(['3E', '1E'] as const)('%s over UDP', (frame) => {
     expect(await client.read('D201')).toBe(201)
   })
 
+  test('from a fixed port: an attempt whose proof comes back behind the deadline ends, and the next one connects', async () => {
+    const { plc, client } = await line(frame, { localPort: await freePort(), timeout: 100 })
+    plc.script = () => {}
+    while (client.state.name === 'connected') expect(await told(client.read('D100'))).toBe('TIMEOUT notSent')
+    let stalls = 1
+    plc.script = (what, reply) => {
+      reply()
+      if (what !== 'echo' || client.state.name !== 'connecting' || stalls-- < 1) return
+      // The whole program stands still until the first request of the connection is overdue.
+      for (const end = performance.now() + 250; performance.now() < end; );
+    }
+    await until(() => client.state.name === 'connected')
+    expect(stalls).toBeLessThan(1)
+    expect(await client.read('D200', { timeout: 5000 })).toBe(200)
+  })
+
   test('from a fixed port: every answer twice, the second one later, and no value is another one', async () => {
     const { plc, client } = await line(frame, { localPort: await freePort() })
     let again = () => {}
