@@ -30,6 +30,8 @@ const FRAMES: readonly (readonly [Request['frame'], Code, Configuration['profile
 export const configurations: readonly Configuration[] = [
   ...FRAMES.map((frame) => configuration('tcp', frame)),
   configuration('tcp', ['3E', 'binary', 'q'], { fixedPort: true }),
+  configuration('tcp', ['1E', 'binary', 'fx3']),
+  configuration('udp', ['1E', 'ascii', 'fx3']),
   ...FRAMES.map((frame) => configuration('udp', frame)),
   configuration('udp', ['4E', 'binary', 'iq-r'], { inFlight: 4 }),
   configuration('udp', ['4E', 'ascii', 'iq-r'], { inFlight: 8 }),

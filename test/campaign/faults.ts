@@ -131,24 +131,20 @@ export const faults: readonly Fault[] = [
   }),
   fault('in two chunks', tcp, (random) => {
     const [part, ms] = [random.next(), random.below(6)]
-    return (turn) => {
-      const [first, second] = cut(turn.carryOut(), part)
-      turn.send(first)
-      turn.send(second, ms)
-    }
+    return (turn) => turn.sendCut(cut(turn.carryOut(), part), ms)
   }),
   simple('byte by byte', tcp, (turn) => turn.trickle(turn.carryOut())),
   fault('cut', everywhere, (random) => {
     const part = random.next()
-    return (turn) => turn.send(cut(turn.carryOut(), part)[0])
+    return (turn) => {
+      const pieces = cut(turn.carryOut(), part)
+      if (turn.peer.name.startsWith('port')) turn.send(pieces[0])
+      else turn.sendCut(pieces)
+    }
   }),
   fault('cut, the rest late', tcp, (random) => {
     const [part, ms] = [random.next(), late(random)]
-    return (turn) => {
-      const [first, second] = cut(turn.carryOut(), part)
-      turn.send(first)
-      turn.send(second, ms)
-    }
+    return (turn) => turn.sendCut(cut(turn.carryOut(), part), ms)
   }),
   fault('cut and closed', tcp, (random) => {
     const part = random.next()

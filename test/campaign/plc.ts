@@ -28,6 +28,8 @@ export interface Peer {
   reset(): void
   /** The PLC has forgotten it: what comes is not looked at, and nothing is sent any more. */
   forgotten: boolean
+  /** Of a connection in the middle of an answer: what waits behind it. A stream has no other place for it. */
+  behind: Buffer[] | undefined
 }
 
 /** One request that has arrived, and everything the PLC may do about it. */
@@ -59,9 +61,17 @@ export class Turn {
     this.plc.answer(this.peer, bytes, delay)
   }
 
+  /** The first bytes of an answer on a connection, whose rest comes after so many ms, or never. */
+  sendCut([first, rest]: readonly [Buffer, Buffer], ms?: number): void {
+    this.plc.sendPart(this.peer, first, false)
+    if (ms !== undefined) this.after(ms, () => this.plc.sendPart(this.peer, rest, true))
+  }
+
   /** One byte after the other, eight in a millisecond or fewer. */
   trickle(bytes: Buffer): void {
-    for (const byte of bytes.subarray(0, 8)) this.send(Buffer.from([byte]))
+    for (const [at, byte] of bytes.subarray(0, 8).entries()) {
+      this.plc.sendPart(this.peer, Buffer.of(byte), at + 1 === bytes.length)
+    }
     if (bytes.length > 8) this.after(1, () => this.trickle(bytes.subarray(8)))
   }
 
@@ -241,8 +251,21 @@ export class Plc {
     this.onAnswered?.()
   }
 
+  /** A part of an answer. Until its last part everything else waits, and without one for ever. */
+  sendPart(peer: Peer, bytes: Buffer, last: boolean): void {
+    const behind = peer.behind ?? []
+    peer.behind = undefined
+    this.#send(peer, bytes)
+    if (!last) peer.behind = behind
+    else for (const other of behind) this.#sendNow(peer, other)
+  }
+
   #sendNow(peer: Peer, bytes: Buffer): void {
     if (peer.forgotten) return
+    if (peer.behind !== undefined) {
+      peer.behind.push(bytes)
+      return
+    }
     this.#journal.add(`PLC to ${peer.name}:`, bytes)
     peer.send(bytes)
   }
@@ -354,7 +377,14 @@ export class Plc {
     const send = (bytes: Buffer) => {
       if (this.#datagrams === datagrams) datagrams.send(bytes, port, '127.0.0.1', () => {})
     }
-    const peer: Peer = { name: `port ${port}`, send, end: () => {}, reset: () => {}, forgotten: false }
+    const peer: Peer = {
+      name: `port ${port}`,
+      send,
+      end: () => {},
+      reset: () => {},
+      forgotten: false,
+      behind: undefined,
+    }
     this.#peers.set(port, peer)
     if (this.#peers.size > 1000) this.#peers.delete(this.#peers.keys().next().value ?? 0)
     return peer
@@ -397,5 +427,6 @@ function streamPeer(socket: Socket): Peer {
     },
     reset: () => cutOff(socket),
     forgotten: false,
+    behind: undefined,
   }
 }
