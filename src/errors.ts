@@ -11,37 +11,44 @@
 export type Outcome = 'notSent' | 'refused' | 'unknown'
 
 /** The caller's mistake: found before anything is sent. */
-export type RequestErrorCode =
-  | 'BAD_ADDRESS' // the text is not an address
-  | 'BAD_TYPE' // the type does not exist, or does not fit the device
-  | 'BAD_VALUE' // the value does not fit the type
-  | 'BAD_OPTION' // an option of the client, simulator or call
-  | 'BAD_MESSAGE' // a message of `request()` does not fit the command's declaration
-  | 'OUT_OF_RANGE' // a number outside what the wire form or the profile can say
-  | 'LIMIT_EXCEEDED' // more points, blocks or bytes than one request may carry
-  | 'UNSUPPORTED' // this profile, frame or code does not have it
-  | 'NOT_PERMITTED' // allowWrites / allowControl is off
+const REQUEST_CODES = [
+  'BAD_ADDRESS', // the text is not an address
+  'BAD_TYPE', // the type does not exist, or does not fit the device
+  'BAD_VALUE', // the value does not fit the type
+  'BAD_OPTION', // an option of the client, simulator or call
+  'BAD_MESSAGE', // a message of `request()` does not fit the command's declaration
+  'OUT_OF_RANGE', // a number outside what the wire form or the profile can say
+  'LIMIT_EXCEEDED', // more points, blocks or bytes than one request may carry
+  'UNSUPPORTED', // this profile, frame or code does not have it
+  'NOT_PERMITTED', // allowWrites / allowControl is off
+] as const
+export type RequestErrorCode = (typeof REQUEST_CODES)[number]
 /** The PLC refused: see `endCode`. */
 export type EndCodeErrorCode = 'END_CODE'
 /** The peer sent what the protocol does not allow. */
-export type ProtocolErrorCode =
-  | 'TRUNCATED' // fewer bytes than the declaration needs
-  | 'TRAILING' // bytes left over
-  | 'BAD_DIGIT' // not a digit of the expected radix
-  | 'BAD_FIELD' // a field with a value that cannot be
-  | 'BAD_FRAME' // subheader, length or control code
-  | 'BAD_SUM' // sum check
-  | 'ECHO_MISMATCH' // route, command or another echoed field differs from the request
-  | 'UNEXPECTED_ANSWER' // an answer nobody asked for, where no serial number tells which request it belongs to
+const PROTOCOL_CODES = [
+  'TRUNCATED', // fewer bytes than the declaration needs
+  'TRAILING', // bytes left over
+  'BAD_DIGIT', // not a digit of the expected radix
+  'BAD_FIELD', // a field with a value that cannot be
+  'BAD_FRAME', // subheader, length or control code
+  'BAD_SUM', // sum check
+  'ECHO_MISMATCH', // route, command or another echoed field differs from the request
+  'UNEXPECTED_ANSWER', // an answer nobody asked for, where no serial number tells which request it belongs to
+] as const
+export type ProtocolErrorCode = (typeof PROTOCOL_CODES)[number]
 export type TimeoutErrorCode = 'TIMEOUT'
-export type ConnectionErrorCode =
-  | 'CONNECT_FAILED'
-  | 'DISCONNECTED'
-  | 'ENTRY_BUSY' // accepted, then closed at once: all entries of the PLC are taken
-  | 'PORT_UNAVAILABLE' // the local port or serial port is taken
-  | 'SILENT' // connected, but nothing answers
-  | 'OFFLINE' // failing fast while the connection is being restored
-export type ClosedErrorCode = 'CLOSED' | 'ABORTED' | 'QUEUE_FULL' | 'OVERLOADED'
+const CONNECTION_CODES = [
+  'CONNECT_FAILED',
+  'DISCONNECTED',
+  'ENTRY_BUSY', // accepted, then closed at once: all entries of the PLC are taken
+  'PORT_UNAVAILABLE', // the local port or serial port is taken
+  'SILENT', // connected, but nothing answers
+  'OFFLINE', // failing fast while the connection is being restored
+] as const
+export type ConnectionErrorCode = (typeof CONNECTION_CODES)[number]
+const CLOSED_CODES = ['CLOSED', 'ABORTED', 'QUEUE_FULL', 'OVERLOADED'] as const
+export type ClosedErrorCode = (typeof CLOSED_CODES)[number]
 export type VerifyErrorCode = 'NOT_VERIFIED'
 export type UnfinishedErrorCode = 'UNFINISHED'
 export type WriteErrorCode = 'NOT_ALL_WRITTEN'
@@ -58,40 +65,49 @@ export type PlcErrorCode =
 
 const BRAND = 'melsec-jw.error'
 
-/** By class: `instanceof` asks for them again and again. */
-const BRANDS = new Map<string, symbol>()
-
-function brand(name: string): symbol {
-  const known = BRANDS.get(name)
-  if (known !== undefined) return known
-  const made = Symbol.for(`${BRAND}.${name}`)
-  BRANDS.set(name, made)
-  return made
-}
-
-function carries(value: unknown, name: string): boolean {
-  return typeof value === 'object' && value !== null && brand(name) in value
-}
-
 /** Base of every error thrown here. `message` says what, where and what to do. */
-export abstract class PlcError extends Error {
-  abstract readonly code: PlcErrorCode
+abstract class BaseError extends Error {
+  /**
+   * Name of the class in its brand, written out: a bundler renames classes. Programs may extend the classes; what they
+   * extend has no kind of its own and is told apart as any class.
+   */
+  protected static readonly kind: string = 'PlcError'
+  abstract readonly code: string
   abstract readonly outcome: Outcome
 
-  constructor(className: string, message: string, cause?: unknown) {
+  constructor(kind: string, message: string, cause?: unknown) {
     super(message, cause === undefined ? undefined : { cause })
-    this.name = className
-    for (const name of ['PlcError', className]) Object.defineProperty(this, brand(name), { value: true })
+    this.name = kind
+    for (const name of ['PlcError', kind]) Object.defineProperty(this, brand(name), { value: true })
   }
 
   static override [Symbol.hasInstance](value: unknown): boolean {
     // biome-ignore lint/complexity/noThisInStatic: `this` is the class on the right of instanceof, also a subclass.
-    return carries(value, this.name)
+    if (!Object.hasOwn(this, 'kind')) return Function.prototype[Symbol.hasInstance].call(this, value)
+    // biome-ignore lint/complexity/noThisInStatic: see above.
+    return typeof value === 'object' && value !== null && brand(this.kind) in value
+  }
+
+  /** Plain data, for JSON, workers and other processes: `plcErrorFrom()` makes the error of it again. */
+  toJSON(): PlcErrorData {
+    return dataOf(this)
   }
 }
 
+/** By kind: `instanceof` asks for them again and again. */
+const BRANDS = new Map<string, symbol>()
+
+function brand(kind: string): symbol {
+  const known = BRANDS.get(kind)
+  if (known !== undefined) return known
+  const made = Symbol.for(`${BRAND}.${kind}`)
+  BRANDS.set(kind, made)
+  return made
+}
+
 /** Bad address, value, option or message, or not permitted. The connection lives. */
-export class RequestError extends PlcError {
+export class RequestError extends BaseError {
+  protected static override readonly kind: string = 'RequestError'
   readonly outcome = 'notSent'
   constructor(
     readonly code: RequestErrorCode,
@@ -99,7 +115,7 @@ export class RequestError extends PlcError {
     /** The item, field or option the message is about, when there is one. */
     readonly field?: string,
   ) {
-    super('RequestError', message)
+    super(RequestError.kind, message)
   }
 }
 
@@ -118,7 +134,8 @@ export interface EndCodeDetail {
 }
 
 /** The PLC answered with an end code other than 0. The connection lives. */
-export class EndCodeError extends PlcError {
+export class EndCodeError extends BaseError {
+  protected static override readonly kind: string = 'EndCodeError'
   readonly code = 'END_CODE'
   readonly outcome = 'refused'
   readonly command: string | undefined
@@ -132,7 +149,7 @@ export class EndCodeError extends PlcError {
     message: string,
     detail: EndCodeDetail = {},
   ) {
-    super('EndCodeError', message)
+    super(EndCodeError.kind, message)
     this.command = detail.command
     this.station = detail.station
     this.abnormalCode = detail.abnormalCode
@@ -142,7 +159,8 @@ export class EndCodeError extends PlcError {
 }
 
 /** The peer broke the protocol. The connection is dropped, because the byte stream can no longer be trusted. */
-export class ProtocolError extends PlcError {
+export class ProtocolError extends BaseError {
+  protected static override readonly kind: string = 'ProtocolError'
   readonly outcome = 'unknown'
   constructor(
     readonly code: ProtocolErrorCode,
@@ -152,12 +170,13 @@ export class ProtocolError extends PlcError {
     /** What was received, cut to a sensible length. */
     readonly bytes?: Uint8Array,
   ) {
-    super('ProtocolError', message)
+    super(ProtocolError.kind, message)
   }
 }
 
 /** No answer before the deadline. */
-export class TimeoutError extends PlcError {
+export class TimeoutError extends BaseError {
+  protected static override readonly kind: string = 'TimeoutError'
   readonly code = 'TIMEOUT'
   constructor(
     message: string,
@@ -165,12 +184,13 @@ export class TimeoutError extends PlcError {
     /** Ranked causes, most likely first, when the silence could be explained. */
     readonly causes: readonly string[] = [],
   ) {
-    super('TimeoutError', message)
+    super(TimeoutError.kind, message)
   }
 }
 
 /** The network: no connection, or lost while a request was in flight. */
-export class ConnectionError extends PlcError {
+export class ConnectionError extends BaseError {
+  protected static override readonly kind: string = 'ConnectionError'
   constructor(
     readonly code: ConnectionErrorCode,
     message: string,
@@ -179,19 +199,20 @@ export class ConnectionError extends PlcError {
     /** Ranked causes, most likely first. */
     readonly causes: readonly string[] = [],
   ) {
-    super('ConnectionError', message, cause)
+    super(ConnectionError.kind, message, cause)
   }
 }
 
 /** Closed, aborted or the queue was full: ended on this side. */
-export class ClosedError extends PlcError {
+export class ClosedError extends BaseError {
+  protected static override readonly kind: string = 'ClosedError'
   constructor(
     readonly code: ClosedErrorCode,
     message: string,
     readonly outcome: 'notSent' | 'unknown' = 'notSent',
     cause?: unknown,
   ) {
-    super('ClosedError', message, cause)
+    super(ClosedError.kind, message, cause)
   }
 }
 
@@ -199,7 +220,8 @@ export class ClosedError extends PlcError {
  * Remote control that the PLC has carried out, but the CPU is not in the state it was to be in, or does not tell. The
  * connection lives. The outcome is `unknown`: the command may take effect later, e.g. when somebody turns the switch.
  */
-export class VerifyError extends PlcError {
+export class VerifyError extends BaseError {
+  protected static override readonly kind: string = 'VerifyError'
   readonly code = 'NOT_VERIFIED'
   readonly outcome = 'unknown'
   constructor(
@@ -208,7 +230,7 @@ export class VerifyError extends PlcError {
     readonly state?: string,
     cause?: unknown,
   ) {
-    super('VerifyError', message, cause)
+    super(VerifyError.kind, message, cause)
   }
 }
 
@@ -217,11 +239,12 @@ export class VerifyError extends PlcError {
  * says what is there now, and `cause` is what went wrong. The outcome is `unknown`, whatever that of the request that
  * failed: neither was nothing sent, nor was nothing carried out. Look before you send it again.
  */
-export class UnfinishedError extends PlcError {
+export class UnfinishedError extends BaseError {
+  protected static override readonly kind: string = 'UnfinishedError'
   readonly code = 'UNFINISHED'
   readonly outcome = 'unknown'
   constructor(message: string, cause: unknown) {
-    super('UnfinishedError', message, cause)
+    super(UnfinishedError.kind, message, cause)
   }
 }
 
@@ -235,7 +258,8 @@ export type WriteResult =
  * `cause` is the error that matters most. The outcome is about the whole: `notSent` and `refused` when nothing at all was
  * written, `unknown` when something was, or may have been.
  */
-export class WriteError extends PlcError {
+export class WriteError extends BaseError {
+  protected static override readonly kind: string = 'WriteError'
   readonly code = 'NOT_ALL_WRITTEN'
   constructor(
     message: string,
@@ -243,8 +267,187 @@ export class WriteError extends PlcError {
     readonly results: readonly WriteResult[],
     cause: PlcError,
   ) {
-    super('WriteError', message, cause)
+    super(WriteError.kind, message, cause)
   }
+}
+
+/** What a cause is as data, when it is no error of this package. */
+export interface CauseData {
+  readonly name: string
+  readonly message: string
+}
+
+/** An error as plain data. What a class does not have is missing. */
+export interface PlcErrorData {
+  readonly name: string
+  readonly code: string
+  readonly message: string
+  readonly outcome: Outcome
+  readonly field?: string
+  readonly endCode?: number
+  readonly command?: string
+  readonly station?: string
+  readonly abnormalCode?: number
+  readonly meaning?: string
+  readonly remedy?: string
+  readonly offset?: number
+  /** Hexadecimal digits. */
+  readonly bytes?: string
+  readonly causes?: readonly string[]
+  readonly state?: string
+  readonly results?: readonly (
+    | { readonly item: string; readonly ok: true }
+    | { readonly item: string; readonly ok: false; readonly error: PlcErrorData }
+  )[]
+  readonly cause?: PlcErrorData | CauseData
+}
+
+const TEXTS = ['field', 'command', 'station', 'meaning', 'remedy', 'state'] as const
+const NUMBERS = ['endCode', 'abnormalCode', 'offset'] as const
+
+function dataOf(error: BaseError): PlcErrorData {
+  const { name, code, message, outcome, cause } = error
+  const plain = [...TEXTS, ...NUMBERS, 'causes'].flatMap((field) => {
+    const value: unknown = Reflect.get(error, field)
+    return value === undefined ? [] : [[field, value]]
+  })
+  return {
+    name,
+    code,
+    message,
+    outcome,
+    ...Object.fromEntries(plain),
+    ...(error instanceof ProtocolError && error.bytes !== undefined
+      ? { bytes: Buffer.from(error.bytes).toString('hex') }
+      : {}),
+    ...(error instanceof WriteError ? { results: error.results.map(resultData) } : {}),
+    ...(cause === undefined ? {} : { cause: causeData(cause) }),
+  }
+}
+
+function resultData(result: WriteResult): NonNullable<PlcErrorData['results']>[number] {
+  const { item } = result
+  return result.ok ? { item, ok: true } : { item, ok: false, error: result.error.toJSON() }
+}
+
+function causeData(cause: unknown): PlcErrorData | CauseData {
+  if (cause instanceof PlcError) return cause.toJSON()
+  return cause instanceof Error
+    ? { name: cause.name, message: cause.message }
+    : { name: 'Error', message: String(cause) }
+}
+
+/**
+ * The error that `toJSON()` made plain data of: of the same class, with the same outcome. Its stack is where this is called.
+ * @throws RequestError BAD_VALUE when it is none
+ * @example process.on('message', (data) => handle(plcErrorFrom(data)))
+ */
+export function plcErrorFrom(data: unknown): PlcError {
+  if (data instanceof PlcError) return data
+  const given = bagOf(data)
+  const { name, message } = given
+  const make = typeof name === 'string' && Object.hasOwn(MAKERS, name) ? MAKERS[name] : undefined
+  if (make === undefined || typeof message !== 'string') throw noError('name')
+  return make(message, given)
+}
+
+type Bag = Readonly<Record<string, unknown>>
+
+const MAKERS: Readonly<Record<string, (message: string, given: Bag) => PlcError>> = {
+  RequestError: (message, given) =>
+    new RequestError(oneOf(given, 'code', REQUEST_CODES), message, textIn(given, 'field')),
+  EndCodeError: (message, given) => {
+    const { endCode } = given
+    if (typeof endCode !== 'number') throw noError('endCode')
+    const fields = ['command', 'station', 'abnormalCode', 'meaning', 'remedy'].filter((field) => given[field] != null)
+    return new EndCodeError(endCode, message, Object.fromEntries(fields.map((field) => [field, given[field]])))
+  },
+  ProtocolError: (message, given) => {
+    const { bytes, offset } = given
+    const received = typeof bytes === 'string' ? Buffer.from(bytes, 'hex') : undefined
+    const at = typeof offset === 'number' ? offset : undefined
+    return new ProtocolError(oneOf(given, 'code', PROTOCOL_CODES), message, at, received)
+  },
+  TimeoutError: (message, given) => new TimeoutError(message, oneOf(given, 'outcome', UNANSWERED), causesIn(given)),
+  ConnectionError: (message, given) => {
+    const code = oneOf(given, 'code', CONNECTION_CODES)
+    return new ConnectionError(code, message, oneOf(given, 'outcome', UNANSWERED), causeIn(given), causesIn(given))
+  },
+  ClosedError: (message, given) =>
+    new ClosedError(oneOf(given, 'code', CLOSED_CODES), message, oneOf(given, 'outcome', UNANSWERED), causeIn(given)),
+  VerifyError: (message, given) => new VerifyError(message, textIn(given, 'state'), causeIn(given)),
+  UnfinishedError: (message, given) => new UnfinishedError(message, causeIn(given)),
+  WriteError: (message, given) => {
+    const { results } = given
+    if (!Array.isArray(results)) throw noError('results')
+    return new WriteError(
+      message,
+      oneOf(given, 'outcome', OUTCOMES),
+      results.map(resultFrom),
+      plcErrorFrom(given.cause),
+    )
+  },
+}
+
+const UNANSWERED = ['notSent', 'unknown'] as const
+const OUTCOMES = ['notSent', 'refused', 'unknown'] as const satisfies readonly Outcome[]
+
+function resultFrom(data: unknown): WriteResult {
+  const { item, ok, error } = bagOf(data)
+  if (typeof item !== 'string' || typeof ok !== 'boolean') throw noError('results')
+  return ok ? { item, ok } : { item, ok, error: plcErrorFrom(error) }
+}
+
+function bagOf(data: unknown): Bag {
+  if (typeof data !== 'object' || data === null) throw noError('name')
+  return data as Bag
+}
+
+function oneOf<const T extends string>(given: Bag, field: string, allowed: readonly T[]): T {
+  const found = allowed.find((value) => value === given[field])
+  if (found === undefined) throw noError(field)
+  return found
+}
+
+function textIn(given: Bag, field: string): string | undefined {
+  const value = given[field]
+  return typeof value === 'string' ? value : undefined
+}
+
+function causesIn({ causes }: Bag): readonly string[] {
+  return Array.isArray(causes) ? causes.map(String) : []
+}
+
+function causeIn({ cause }: Bag): unknown {
+  if (cause === undefined || cause === null) return undefined
+  const { name, message } = bagOf(cause)
+  if (typeof name === 'string' && Object.hasOwn(MAKERS, name)) return plcErrorFrom(cause)
+  const error = new Error(String(message))
+  error.name = String(name)
+  return error
+}
+
+function noError(field: string): RequestError {
+  return new RequestError('BAD_VALUE', `This is no error as toJSON() writes it: its ${field} is wrong.`, field)
+}
+
+/** Every error of this package: `error.code` says which, and narrows the type. */
+export type PlcError =
+  | RequestError
+  | EndCodeError
+  | ProtocolError
+  | TimeoutError
+  | ConnectionError
+  | ClosedError
+  | VerifyError
+  | UnfinishedError
+  | WriteError
+
+/** For `instanceof`: true of every error of this package, also of another copy of it. */
+export const PlcError = BaseError as unknown as (abstract new (
+  ...given: never[]
+) => BaseError) & {
+  [Symbol.hasInstance](value: unknown): value is PlcError
 }
 
 /**
