@@ -23,6 +23,7 @@ export type {
   ClearMode,
   Control,
   Identity,
+  IdentityWarning,
   LatchClearOptions,
   PauseOptions,
   RunOptions,

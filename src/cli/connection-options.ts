@@ -28,6 +28,7 @@ export interface ConnectionOptions {
   readonly asciiZr?: 'decimal' | 'hexadecimal'
   readonly asciiWordOrder?: 'low-first' | 'high-first'
   readonly xyRadix?: 8 | 16
+  readonly wRadix?: 10 | 16
   readonly network?: number
   readonly station?: number
   readonly moduleIo?: number
@@ -105,6 +106,12 @@ export function addDigitOptions(command: Command): Command {
     .addOption(choice('--ascii-zr <digits>', 'ASCII code: digits of ZR', ['decimal', 'hexadecimal']))
 }
 
+export const wRadixOption = () =>
+  new Option(
+    '--w-radix <10|16>',
+    "W is written in decimal (10, as SLMP inverters are said to) or hexadecimal (16); default: the profile's",
+  ).argParser(wRadix)
+
 export const frameOption = (description: string) => choice('--frame <name>', description, FRAMES)
 
 /** Adds the options that say which PLC. */
@@ -133,6 +140,7 @@ export function addConnectionOptions(command: Command): Command {
         "X and Y are written in octal (8) or hexadecimal (16); default: the profile's",
       ).argParser(radix),
     )
+    .addOption(wRadixOption())
     .addOption(new Option('--password', `ask for the remote password; without it ${PASSWORD} is used, if set`))
     .optionsGroup('Another station or CPU:')
     .addOption(new Option('--network <number>', 'another network').argParser(whole(0, 255)))
@@ -190,6 +198,11 @@ export function addFormatOptions(command: Command): Command {
 function radix(text: string): 8 | 16 {
   if (text === '8' || text === '16') return text === '8' ? 8 : 16
   throw new InvalidArgumentError('It is 8 (octal) or 16 (hexadecimal).')
+}
+
+function wRadix(text: string): 10 | 16 {
+  if (text === '10' || text === '16') return text === '10' ? 10 : 16
+  throw new InvalidArgumentError('It is 10 (decimal) or 16 (hexadecimal).')
 }
 
 function moduleIo(text: string): number {
@@ -261,8 +274,19 @@ export function clientOptions(
   options: ConnectionOptions & FormatOptions,
   allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'> = {},
 ): MelsecClientOptions {
-  const { profile, frame, ascii, asciiXy, asciiZr, asciiWordOrder, xyRadix, monitoringTimer, localAddress, localPort } =
-    options
+  const {
+    profile,
+    frame,
+    ascii,
+    asciiXy,
+    asciiZr,
+    asciiWordOrder,
+    xyRadix,
+    wRadix,
+    monitoringTimer,
+    localAddress,
+    localPort,
+  } = options
   const {
     network,
     station,
@@ -289,6 +313,7 @@ export function clientOptions(
       asciiZr,
       asciiWordOrder,
       xyRadix,
+      wRadix,
       monitoringTimer,
       localAddress,
       localPort,

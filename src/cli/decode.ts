@@ -1,7 +1,7 @@
 import { type DataCode, explainFrame, explainJwFrame, formatExplanation, type ProfileId } from '../index'
 import { bytesOfText, pastedBytes } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
-import { addDigitOptions, choice, jsonOption, profileOption } from './connection-options'
+import { addDigitOptions, choice, jsonOption, profileOption, wRadixOption } from './connection-options'
 import { exitCodes } from './exit-code'
 import { json } from './output'
 import type { Terminal } from './terminal'
@@ -19,7 +19,7 @@ const examples = [
 type ExplainOptions = NonNullable<Parameters<typeof explainFrame>[1]>
 type Explanation = ReturnType<typeof explainFrame>
 
-interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr'> {
+interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wRadix'> {
   readonly frame?: (typeof FRAMES)[number]
   readonly request?: string
   readonly registration?: string
@@ -54,7 +54,7 @@ export const decodeCommand: MakeCommand = (run) => {
     )
     .addOption(choice('--code <code>', 'data code', ['binary', 'ascii']))
     .addOption(profileOption().default('generic'))
-  addDigitOptions(command)
+  addDigitOptions(command).addOption(wRadixOption())
   command.addOption(jsonOption())
   return command.action((texts: readonly string[], options: DecodeOptions) =>
     perform(run, options, () => decode(run.terminal, texts, options)),
@@ -77,13 +77,14 @@ async function decode(terminal: Terminal, texts: readonly string[], options: Dec
 }
 
 function explainOptions(options: DecodeOptions, bytes: (text: string, what: string) => Buffer): ExplainOptions {
-  const { frame, code, profile, request, registration, asciiXy, asciiZr } = options
+  const { frame, code, profile, request, registration, asciiXy, asciiZr, wRadix } = options
   return {
     profile,
     ...(frame === undefined || frame === 'JW' ? {} : { frame }),
     ...(code === undefined ? {} : { code }),
     ...(asciiXy === undefined ? {} : { asciiXy }),
     ...(asciiZr === undefined ? {} : { asciiZr }),
+    ...(wRadix === undefined ? {} : { wRadix }),
     ...(request === undefined ? {} : { request: bytes(request, 'the request') }),
     ...(registration === undefined ? {} : { registration: bytes(registration, 'the registration') }),
   }

@@ -39,7 +39,7 @@ function show(terminal: Terminal, options: ConnectionOptions, client: MelsecClie
     terminal.out(json({ plc: peerText(options), ...identity, roundTrip }))
     return
   }
-  const { model, modelCode, models, series, profile } = identity
+  const { model, modelCode, models, series, profile, warning } = identity
   const known = models.length === 0 ? 'not in the manuals' : models.join(' or ')
   terminal.out(
     table([
@@ -51,6 +51,7 @@ function show(terminal: Terminal, options: ConnectionOptions, client: MelsecClie
       ['Round trip', roundTripText(roundTrip)],
     ]),
   )
+  if (warning !== undefined) terminal.error(`Warning: ${warning.message} (--w-radix 10)`)
 }
 
 function showUnnamed(terminal: Terminal, options: ConnectionOptions, client: MelsecClient, error: PlcError): void {

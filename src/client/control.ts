@@ -4,7 +4,7 @@ import type { Echo, Exchange, ResponseFrame } from '../link/link'
 import { pcTypeCodes } from '../melsec/a-compatible-type'
 import type { Command, RequestOf, ResponseOf } from '../melsec/command'
 import { type CommandName, commands } from '../melsec/commands/commands'
-import { modelOf } from '../melsec/model-code'
+import { decimalWNote, modelOf } from '../melsec/model-code'
 import type { Profile, ProfileId } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
 import type { Clock } from '../transport/clock'
@@ -89,6 +89,14 @@ export interface Identity {
   readonly series?: string
   /** The profile that fits. A port cannot be told from the code: where the client's own profile is for such a CPU, it stays. */
   readonly profile?: ProfileId
+  /** What may make an address mean another device here than in the device's own manual. */
+  readonly warning?: IdentityWarning
+}
+
+export interface IdentityWarning {
+  /** `W_RADIX`: it is said to number W in decimal, and this client writes W in hexadecimal (`wRadix`). */
+  readonly code: 'W_RADIX'
+  readonly message: string
 }
 
 /** What remote control is made of. */
@@ -165,16 +173,20 @@ export function controlOf(parts: ControlParts): Control {
   }
 }
 
-export async function identify(send: Send, own: Profile, options?: CallOptions): Promise<Identity> {
-  const { model, modelCode } = await send(commands.readTypeName, {}, options)
+/** @param wRadix how this client writes W */
+export async function identify(send: Send, own: Profile, wRadix: 10 | 16, options?: CallOptions): Promise<Identity> {
+  const { model: padded, modelCode } = await send(commands.readTypeName, {}, options)
+  const model = padded.trimEnd()
   const known = modelOf(modelCode)
+  const warned = wRadix === 10 ? undefined : decimalWNote(model)
   return {
-    model: model.trimEnd(),
+    model,
     modelCode,
     // 1E has type codes of its own, one for several series: no profile follows from them.
     models: known?.models ?? pcTypeCodes.get(modelCode) ?? [],
     ...(known?.series === undefined ? {} : { series: known.series }),
     ...(known === undefined ? {} : { profile: own.cpu === known.profile ? own.id : known.profile }),
+    ...(warned === undefined ? {} : { warning: { code: 'W_RADIX', message: warned } }),
   }
 }
 

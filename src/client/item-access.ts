@@ -2,6 +2,7 @@
 import { RequestError } from '../errors'
 import type { Exchange } from '../link/link'
 import { longCounterHint, namedAsFx5 } from '../melsec/a-compatible-rules'
+import type { AddressOptions } from '../melsec/address'
 import { commands } from '../melsec/commands/commands'
 import type { Head3e } from '../melsec/frame-3e'
 import type { ClientProtocol } from '../melsec/protocol'
@@ -98,7 +99,7 @@ export class ItemAccess {
   }
 
   planWrite(entries: readonly WriteEntry[], options: WriteOptions = {}): WritePlan {
-    const { settings, protocol, call, permit } = this.#parts
+    const { protocol, call, permit } = this.#parts
     checkNames('', options, { ...WRITE_OPTIONS })
     checkBooleans(options, ['readModifyWrite', 'allOrNothing'])
     // An entry that is none is an item that is none.
@@ -108,7 +109,7 @@ export class ItemAccess {
         value: valueGiven(entry?.value),
       }),
     )
-    const all = { ...options, xyRadix: settings.xyRadix }
+    const all = { ...options, ...this.#notation }
     const devices: readonly PlannedEntry[] = parsed.filter(isPlanned)
     const isMixed = devices.length < parsed.length
     const plan = isMixed ? new MixedWrite(parsed, this.#lender, all) : planWrite(devices, protocol, all)
@@ -146,12 +147,16 @@ export class ItemAccess {
     const parsed = this.#parse(item)
     if ('error' in parsed) throw parsed.error
     if (isLabel(parsed)) return explainLabel(parsed, this.#parts.protocol)
-    return explainItem(parsed, this.#parts.protocol, { xyRadix: this.#parts.settings.xyRadix })
+    return explainItem(parsed, this.#parts.protocol, this.#notation)
   }
 
-  get #planOptions(): { readonly gap: number; readonly xyRadix: 8 | 16 } {
-    const { gap, xyRadix } = this.#parts.settings
-    return { gap, xyRadix }
+  get #planOptions(): { readonly gap: number } & AddressOptions {
+    return { gap: this.#parts.settings.gap, ...this.#notation }
+  }
+
+  get #notation(): AddressOptions {
+    const { xyRadix, wRadix } = this.#parts.settings
+    return { xyRadix, wRadix }
   }
 
   /** An item of a list. What is none has no text to be called by, so its place names it. */
@@ -163,14 +168,14 @@ export class ItemAccess {
     if (hasPrefix(item)) return this.#askable(parsedLabel(item))
     const longCounter = this.#longCounter(item)
     if (longCounter !== undefined) return longCounter
-    const { xyRadix, xyUnknown, format, profile } = this.#parts.settings
+    const { xyUnknown, format, profile } = this.#parts.settings
     try {
-      const parsed = this.#renamed(parseItem(item, { xyRadix, format }))
+      const parsed = this.#renamed(parseItem(item, { ...this.#notation, format }))
       if (xyUnknown) refuseAmbiguousXy(item, parsed)
       return parsed
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
-      return this.#askable(labelInstead(item, error, { profile, xyRadix }))
+      return this.#askable(labelInstead(item, error, { profile, ...this.#notation }))
     }
   }
 

@@ -6,6 +6,7 @@
  * PLC says the type.
  */
 import { RequestError } from '../errors'
+import type { AddressOptions } from '../melsec/address'
 import { isLabelName, isPlainLabel } from '../melsec/plain-label'
 import { doubtOf, lackOf, type Profile } from '../melsec/profile'
 import { shown } from './given'
@@ -82,16 +83,15 @@ function onlyOne<F extends 'type' | 'count'>(given: ItemOptions, field: F, inTex
 }
 
 /** What a text that is no device may be on this PLC. */
-export interface LabelContext {
+export interface LabelContext extends AddressOptions {
   readonly profile: Profile
-  readonly xyRadix: 8 | 16
 }
 
 /**
  * An item that no device is named by: the label it is, or why it is none, with what to do.
  * @param error why it is no item of a device
  */
-export function labelInstead(item: Item, error: RequestError, { profile, xyRadix }: LabelContext): AnyItem {
+export function labelInstead(item: Item, error: RequestError, { profile, ...notation }: LabelContext): AnyItem {
   const text = addressOf(item)
   const refused = (message: string): RefusedItem => ({
     text: itemText(item),
@@ -100,7 +100,7 @@ export function labelInstead(item: Item, error: RequestError, { profile, xyRadix
   const { name } = partsOf(text)
   if (!isLabelName(name.trim())) return refused('')
   const lack = lackOf(profile, 'readRandomLabels')
-  const isPlain = isPlainLabel(name, { xyRadix })
+  const isPlain = isPlainLabel(name, notation)
   if (lack !== undefined) return refused(isPlain ? `If it is a label: ${lack.reason} ${lack.instead}` : '')
   if (isPlain && doubtOf(profile, 'readRandomLabels') === undefined) return parsedLabel(item)
   return refused(error.code === 'BAD_ADDRESS' ? `If it is a label, write label:${shown(text.trim())}.` : '')

@@ -410,10 +410,10 @@ export class MelsecClient {
     })
   }
 
-  /** How X and Y are numbered in addresses; empty where nobody knows. */
+  /** How X, Y and W are numbered in addresses; without X and Y where nobody knows. */
   get notation(): Notation {
-    const { xyRadix, xyUnknown } = this.#settings
-    return xyUnknown ? {} : { xyRadix }
+    const { xyRadix, wRadix, xyUnknown } = this.#settings
+    return xyUnknown ? { wRadix } : { xyRadix, wRadix }
   }
 
   /**
@@ -460,7 +460,7 @@ export class MelsecClient {
 
   /** Who the PLC says it is, with what its model code means. */
   identify(options?: CallOptions): Promise<Identity> {
-    return identify(this.#send, this.profile, options)
+    return identify(this.#send, this.profile, this.#settings.wRadix, options)
   }
 
   /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns ms from sending to the answer. */

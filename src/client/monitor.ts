@@ -1,6 +1,7 @@
 // Items the PLC is told once (0801) and asked for again and again with a request that names none (0802).
 import { EndCodeError, PlcError, RequestError } from '../errors'
 import type { Exchange } from '../link/link'
+import type { AddressOptions } from '../melsec/address'
 import type { RequestOf } from '../melsec/command'
 import { commands } from '../melsec/commands/commands'
 import type { ClientProtocol } from '../melsec/protocol'
@@ -15,9 +16,8 @@ import { type PreparedRead, prepareRead, type Send } from './plan-request'
 import { type Place, placeOf, valueAt } from './plan-value'
 
 /** What a monitor needs of its client. */
-export interface MonitorOptions<Head> {
+export interface MonitorOptions<Head> extends AddressOptions {
   readonly gap: number
-  readonly xyRadix: 8 | 16
   /** One call: its deadline, and how it sends. @throws RequestError BAD_OPTION */
   readonly call: (options: CallOptions | undefined) => MonitorCall<Head>
   readonly time: () => number

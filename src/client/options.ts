@@ -51,6 +51,11 @@ export interface MelsecClientOptions {
   readonly asciiWordOrder?: 'low-first' | 'high-first'
   /** How X and Y are numbered in addresses: 8 octal, 16 hexadecimal. Default: the profile's. */
   readonly xyRadix?: 8 | 16
+  /**
+   * How W is numbered in addresses: 16 hexadecimal, 10 decimal, as SLMP inverters (FR-E800) are said to do. Default: the
+   * profile's, which is 16. Decimal in binary code only: nobody says which digits ASCII code takes then.
+   */
+  readonly wRadix?: 10 | 16
   /** Station to speak to; default: the connected station. Stations above 120 need frame `ext`. */
   readonly route?: Partial<Route>
   /** Time the PLC gives the request, a multiple of 250 up to 16383750; 0 = for ever. Default: the profile's. */
@@ -103,6 +108,7 @@ export interface Settings {
   /** In units of 250 ms. */
   readonly timer: number
   readonly xyRadix: 8 | 16
+  readonly wRadix: 10 | 16
   /** Neither the profile nor the user says how X and Y are numbered. */
   readonly xyUnknown: boolean
   readonly timeout: number
@@ -140,6 +146,7 @@ const NAMES = {
   asciiZr: true,
   asciiWordOrder: true,
   xyRadix: true,
+  wRadix: true,
   route: true,
   monitoringTimer: true,
   timeout: true,
@@ -180,6 +187,7 @@ export function settle(options: MelsecClientOptions): Settings {
   const profile = profileOf(options)
   const transport = oneOf('transport', options.transport ?? 'tcp', ['tcp', 'udp'])
   const frame = frameOf(profile, options.frame)
+  const code = codeOf(frame, options.code ?? profile.code)
   if (options.openTransport === undefined) checkPeer(options)
   checkFormat(options.format ?? {})
   checkPasswordPort(options, transport, frame)
@@ -187,11 +195,12 @@ export function settle(options: MelsecClientOptions): Settings {
     transport,
     profile,
     frame,
-    code: codeOf(frame, options.code ?? profile.code),
+    code,
     asciiXy: asciiXyOf(profile, oneOf('asciiXy', options.asciiXy, [undefined, 'octal', 'hexadecimal'])),
     route: provable(options, transport, frame, reachable(profile, routeOf(frame, options.route))),
     timer: timerOf(profile, options.monitoringTimer),
     xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
+    wRadix: wRadixOf(code, options.wRadix ?? profile.wRadix),
     xyUnknown: profile.id === 'generic' && (options.xyRadix ?? options.profileOverrides?.xyRadix) === undefined,
     timeout: whole('timeout', options.timeout ?? 3000, 1, LONGEST),
     connectTimeout: whole('connectTimeout', options.connectTimeout ?? 5000, 1, LONGEST),
@@ -281,6 +290,15 @@ function codeOf(frame: FrameName, given: DataCode): DataCode {
     `The ${title} frame exists in ${codes.join(' and ')} code only: set code to ${codes[0]}, or choose another frame.`,
     'code',
   )
+}
+
+/** W902 is 902 or 386H on the line: in ASCII code another register would be written, and no manual at hand says which. */
+function wRadixOf(code: DataCode, given: 10 | 16): 10 | 16 {
+  const wRadix = oneOf('wRadix', given, [10, 16])
+  if (wRadix === 16 || code === 'binary') return wRadix
+  const message =
+    'W in decimal (wRadix 10) goes with binary code only: which digits such a device takes in ASCII code is not known.'
+  throw new RequestError('BAD_OPTION', message, 'wRadix')
 }
 
 function routeOf(frame: FrameName, given: Partial<Route> | undefined): Route {

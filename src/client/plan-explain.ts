@@ -43,7 +43,7 @@ export function explainItem<Head>(
   options: AddressOptions,
 ): DeviceExplanation {
   const info = deviceInfo(item.address.device)
-  const plan = planRead([item], protocol, { gap: 0, xyRadix: options.xyRadix })
+  const plan = planRead([item], protocol, { gap: 0, ...options })
   const { requests, notes } = plan.describe()
   const refusal = plan.errorOf(0)
   if (refusal !== undefined) throw refusal

@@ -3,8 +3,10 @@ import { type EndCodeError, RequestError } from '../errors'
 import type { AddressOptions } from '../melsec/address'
 import type { CommandName } from '../melsec/commands/commands'
 import { commands } from '../melsec/commands/commands'
+import type { Notation } from '../melsec/device-json'
 import { explainEndCode } from '../melsec/end-code'
 import { limitsOf } from '../melsec/limit'
+import { addressOptionsOf } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
 import { about } from './about'
 import type { ParsedItem, RefusedItem } from './item'
@@ -14,11 +16,10 @@ import { type Draft, type PackOptions, packed } from './plan-pack'
 import { bodyBytes, type PreparedRead, prepareRead } from './plan-request'
 import { type Place, placeOf } from './plan-value'
 
-export interface ReadShapeOptions {
+/** The notation is that of descriptions; default: the profile's. */
+export interface ReadShapeOptions extends Notation {
   /** Words that may be read in vain to merge near items into one request. */
   readonly gap: number
-  /** Notation of X and Y in descriptions; default: the profile's. */
-  readonly xyRadix?: 8 | 16
 }
 
 /** One request of the plan and where its values go. */
@@ -64,7 +65,7 @@ export class ReadShape<Head> {
   constructor(
     items: readonly (ParsedItem | RefusedItem)[],
     protocol: ClientProtocol<Head>,
-    { gap, xyRadix }: ReadShapeOptions,
+    { gap, ...notation }: ReadShapeOptions,
   ) {
     if (!Number.isInteger(gap) || gap < 0) {
       throw new RequestError('BAD_OPTION', `gap is a whole number of words from 0, not ${String(gap)}.`, 'gap')
@@ -73,7 +74,7 @@ export class ReadShape<Head> {
     this.#protocol = protocol
     this.#areas = new Areas(protocol, 'read')
     this.#gap = gap
-    this.#address = { xyRadix: xyRadix ?? protocol.profile.xyRadix }
+    this.#address = addressOptionsOf(protocol.profile, notation)
     const pieces = items.flatMap((item, index) => this.#piecesOf(item, index))
     this.#steps = this.#built(pieces, { gap, without: new Set() }, 'planned')
   }

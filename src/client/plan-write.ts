@@ -3,8 +3,9 @@
  * in the order of the entries, and nothing that may have been carried out is ever sent again.
  */
 import { ClosedError, EndCodeError, PlcError, RequestError, type WriteResult } from '../errors'
+import type { Notation } from '../melsec/device-json'
 import { explainEndCode } from '../melsec/end-code'
-import type { Profile } from '../melsec/profile'
+import { addressOptionsOf, type Profile } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
 import { about } from './about'
 import type { ParsedItem, RefusedItem } from './item'
@@ -31,10 +32,8 @@ export interface WriteOptions {
   readonly allOrNothing?: boolean
 }
 
-export interface PlanWriteOptions extends WriteOptions {
-  /** Notation of X and Y in descriptions; default: the profile's. */
-  readonly xyRadix?: 8 | 16
-}
+/** The notation is that of descriptions; default: the profile's. */
+export interface PlanWriteOptions extends WriteOptions, Notation {}
 
 /**
  * The requests that write the entries, in their order. Entries that cannot be written keep their error.
@@ -63,7 +62,7 @@ export class WritePlan<Head> {
     this.#context = {
       protocol,
       readAreas: new Areas(protocol, 'read'),
-      options: { xyRadix: options.xyRadix ?? protocol.profile.xyRadix },
+      options: addressOptionsOf(protocol.profile, options),
     }
     this.#entries = entries
     this.#options = options

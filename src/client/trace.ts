@@ -7,6 +7,7 @@ import { PlcError } from '../errors'
 import type { Framing } from '../link/link'
 import type { Command } from '../melsec/command'
 import { knownCommands } from '../melsec/commands/known'
+import type { Notation } from '../melsec/device-json'
 import {
   type ExplainFrameOptions,
   explainFrame,
@@ -33,11 +34,10 @@ export interface TraceEntry {
   readonly text: string
 }
 
-export interface TracerOptions {
+export interface TracerOptions extends Notation {
   readonly frame: FrameName
   readonly code: DataCode
   readonly profile: Profile
-  readonly xyRadix?: 8 | 16
   readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
   readonly asciiZr?: 'decimal' | 'hexadecimal' | undefined
   /** `datagram`: a frame never goes on in the next chunk. Default `stream`. */
@@ -191,13 +191,14 @@ export class Tracer {
   }
 
   #explain({ bytes, request, registration, unfinished }: Piece): FrameExplanation {
-    const { profile, xyRadix, asciiXy, asciiZr, code } = this.#options
+    const { profile, xyRadix, wRadix, asciiXy, asciiZr, code } = this.#options
     const options: ExplainFrameOptions = {
       ...(this.#framing === undefined ? { frame: '1E' } : {}),
       code,
       profile,
       commands: this.#commands,
       ...(xyRadix === undefined ? {} : { xyRadix }),
+      ...(wRadix === undefined ? {} : { wRadix }),
       ...(asciiXy === undefined ? {} : { asciiXy }),
       ...(asciiZr === undefined ? {} : { asciiZr }),
       ...(request === undefined ? {} : { request }),

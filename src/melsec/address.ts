@@ -5,6 +5,7 @@
  * |---------------------------|--------------------------------------------------------------------------------|
  * | `D100` `M0` `W1F` `TN5`   | device and number; X, Y, B, W, SB, SW, DX, DY hexadecimal, the others decimal  |
  * | `X17`                     | X and Y are octal where `xyRadix` is 8 (FX, iQ-F)                              |
+ * | `W902`                    | W is decimal where `wRadix` is 10 (SLMP inverters)                             |
  * | `D100.F`                  | bit 15 of a word device: one hexadecimal digit                                 |
  * | `K4M0`                    | digit designation: 4 x 4 bits from M0                                          |
  * | `J1\W10`                  | link direct device of network 1 (decimal)                                      |
@@ -35,6 +36,8 @@ import { addressProblem } from './device-access'
 export interface AddressOptions {
   /** X and Y: 8 on FX and iQ-F, 16 elsewhere; the profile knows. */
   readonly xyRadix: 8 | 16
+  /** W: 16; 10 on SLMP inverters. Link direct devices are hexadecimal whatever it is. */
+  readonly wRadix?: 10 | 16
   /** ZR is decimal in GX Works; 16 for texts that come from a driver which takes it as hexadecimal. */
   readonly radixOverrides?: { readonly ZR?: 10 | 16 }
 }
@@ -211,6 +214,9 @@ function badNumber(info: DeviceInfo, rest: string, radix: Radix): string {
   if (info.octal === true && radix === 8 && /^[0-9A-F]+/.test(rest)) {
     return `X and Y are numbered in octal here, as on FX and iQ-F, so ${info.name} takes the digits 0 to 7. If this PLC shows them in hexadecimal, set the X/Y numbering to hexadecimal (xyRadix: 16).`
   }
+  if (info.name === 'W' && radix === 10 && DIGITS[16].test(rest)) {
+    return 'W is numbered in decimal here, as on SLMP inverters, so it takes the digits 0 to 9. If this device shows it in hexadecimal, set the W numbering to hexadecimal (wRadix: 16).'
+  }
   return `after ${info.name} (${info.title}) stands a ${RADIX_NAME[radix]} number, not ${JSON.stringify(shortened(rest))}.`
 }
 
@@ -240,13 +246,18 @@ function bitOf(text: string | undefined, info: DeviceInfo, fail: Fail): { bit?: 
   return { bit: Number.parseInt(text, 16) }
 }
 
-/** Link direct X and Y are hexadecimal whatever the numbering of the CPU's own (SLMP p. 208). */
+/** Link direct devices are hexadecimal whatever the numbering of the CPU's own (SLMP p. 208). */
 function radixOf(info: DeviceInfo, place: Pick<DeviceAddress, 'extension'>, options: AddressOptions): Radix {
   if (info.octal === true) {
     if (place.extension?.kind === 'link') return 16
     const { xyRadix } = options
     if (xyRadix === 8 || xyRadix === 16) return xyRadix
     throw new RequestError('BAD_OPTION', `xyRadix is ${JSON.stringify(xyRadix)}; it is 8 or 16.`, 'xyRadix')
+  }
+  if (info.name === 'W' && place.extension?.kind !== 'link') {
+    const { wRadix = info.radix } = options
+    if (wRadix === 10 || wRadix === 16) return wRadix
+    throw new RequestError('BAD_OPTION', `wRadix is ${JSON.stringify(wRadix)}; it is 10 or 16.`, 'wRadix')
   }
   if (info.name === 'ZR') return options.radixOverrides?.ZR ?? info.radix
   return info.radix

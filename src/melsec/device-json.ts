@@ -4,10 +4,12 @@ import { formatDevice, parseDevice } from './address'
 import type { DeviceAddress } from './device'
 import { addressProblem } from './device-access'
 
-/** How X and Y are numbered in addresses. */
+/** How X, Y and W are numbered in addresses. */
 export interface Notation {
   /** 8 octal (FX, iQ-F), 16 hexadecimal; without it an address that depends on it is refused. */
   readonly xyRadix?: 8 | 16
+  /** 16 hexadecimal (default), 10 decimal (SLMP inverters). */
+  readonly wRadix?: 10 | 16
 }
 
 /**
@@ -26,7 +28,7 @@ export function deviceFromJson(given: unknown, field: string, notation: Notation
 /** The text where it means one device only, else the object. */
 export function deviceToJson(value: unknown, notation: Notation): unknown {
   if (!isAddress(value)) return value
-  const [text, ...others] = radices(notation).map((xyRadix) => formatDevice(value, { xyRadix }))
+  const [text, ...others] = radices(notation).map((xyRadix) => formatDevice(value, { ...notation, xyRadix }))
   return others.every((other) => other === text) ? text : value
 }
 
@@ -47,7 +49,7 @@ function fromText(text: string, notation: Notation): DeviceAddress {
 /** Octal cannot say 8, 9 and A to F: then only one of both is an address, and nobody knows whether it is meant. */
 function wholeDevice(text: string, xyRadix: 8 | 16, notation: Notation): DeviceAddress | undefined {
   try {
-    const { address, bit, digits } = parseDevice(text, { xyRadix })
+    const { address, bit, digits } = parseDevice(text, { ...notation, xyRadix })
     if (bit === undefined && digits === undefined) return address
     bad(
       `${JSON.stringify(text)} is ${bit === undefined ? 'a digit designation' : 'a bit of a word'}; a command takes a device.`,

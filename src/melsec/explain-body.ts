@@ -227,6 +227,11 @@ export function noteUncertainDigits(explainer: Explainer, settings: Settings, us
   if (settings.asciiXy === undefined && settings.profile.xyRadix === 8 && (used.includes('X') || used.includes('Y'))) {
     explainer.notes.push('X and Y are read as octal digits; if the port is set to "ASCII (X,Y HEX)", say asciiXy.')
   }
+  if (settings.wRadix === 10 && used.includes('W')) {
+    explainer.notes.push(
+      'W is read as hexadecimal digits; which a device takes that numbers W in decimal is not known.',
+    )
+  }
   if (settings.asciiZr === undefined && used.includes('ZR')) {
     explainer.notes.push('ZR is read as decimal digits; the manuals disagree, see asciiZr.')
   }

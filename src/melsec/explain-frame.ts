@@ -19,7 +19,7 @@ import {
 import { describeHead, endCodeText } from './explain-head'
 import { frame3e } from './frame-3e'
 import { type FrameName, frameFacts, type SlmpFrameName } from './frames'
-import { asciiXyOf, type Profile, type ProfileId, resolveProfile } from './profile'
+import { addressOptionsOf, asciiXyOf, type Profile, type ProfileId, resolveProfile } from './profile'
 import { isConnectedStation, ownStation } from './route'
 
 export type { AnnotatedRow, Fault } from '../codec/annotate'
@@ -35,6 +35,8 @@ export interface ExplainFrameOptions {
   readonly profile?: ProfileId | Profile
   /** How X and Y are written; default: the profile's. */
   readonly xyRadix?: 8 | 16
+  /** How W is written; default: the profile's. */
+  readonly wRadix?: 10 | 16
   /** Digits of X and Y in ASCII code, where the port has the setting; default: as the profile numbers them. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** Digits of ZR in ASCII code; default decimal. */
@@ -56,7 +58,7 @@ export function explainFrame(bytes: Buffer, options: ExplainFrameOptions = {}): 
   const profile = resolveProfile(options.profile ?? 'generic')
   const known: Known = {
     profile,
-    xyRadix: options.xyRadix ?? profile.xyRadix,
+    ...addressOptionsOf(profile, options),
     asciiXy: asciiXyOf(profile, options.asciiXy),
     asciiZr: options.asciiZr,
     commands: options.commands ?? knownCommands,

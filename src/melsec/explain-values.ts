@@ -2,7 +2,7 @@
 import { type AnnotatedRow, hex, type Leaf, showBytes } from '../codec/annotate'
 import type { Context, DataCode, Declaration, Field, Shape } from '../codec/codec'
 import { aCompatibleDevice } from './a-compatible-device'
-import { formatDevice } from './address'
+import { type AddressOptions, formatDevice } from './address'
 import { commands } from './commands/commands'
 import { type DeviceAddress, deviceInfo } from './device'
 import { deviceAddress } from './device-codec'
@@ -13,9 +13,8 @@ import { modelOf } from './model-code'
 import { setReset } from './set-reset'
 
 /** How values are put into words. */
-export interface WordsFor {
+export interface WordsFor extends AddressOptions {
   readonly code: DataCode
-  readonly xyRadix: 8 | 16
 }
 
 /** The device of the n-th value of a row. */

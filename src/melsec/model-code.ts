@@ -144,6 +144,18 @@ export const modelCodes: ReadonlyMap<number, Model> = new Map([
   ...entries([[0x48c2, 'L16HCPU']], { series: 'iQ-L', profile: 'iq-r', source: 'measured by others' }),
 ])
 
+/** SLMP inverters by the name they answer; their codes stand in no manual at hand (FR-E800-E is said to answer 054F). */
+const INVERTER = /^FR-/
+
+/** What to know about addresses of a device that says it is this model; undefined: nothing special. */
+export function decimalWNote(model: string): string | undefined {
+  if (!INVERTER.test(model)) return undefined
+  return (
+    `${model} is an inverter, and SLMP inverters (FR-E800) are said to number W in decimal: W902 is Pr. 902. Here W is hexadecimal, ` +
+    'so W902 asks for number 2306. Set wRadix to 10 if the manual of the inverter says so.'
+  )
+}
+
 /**
  * The models, series and fitting profile of a model code; undefined when it is not in the manuals.
  *

@@ -2,8 +2,10 @@
 
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
+import type { AddressOptions } from './address'
 import type { CommandName } from './commands/commands'
 import type { DeviceName, ExtensionKind } from './device'
+import type { Notation } from './device-json'
 import type { FrameName } from './frames'
 import type { LimitRule, LimitUnit } from './limit'
 import { fx3 } from './profiles/fx3'
@@ -220,6 +222,8 @@ export interface Profile {
   readonly cpu: ProfileId
   /** How X and Y are numbered in the engineering tool: `X17` is octal on iQ-F, hexadecimal elsewhere. */
   readonly xyRadix: 8 | 16
+  /** How W is numbered: hexadecimal on every PLC; SLMP inverters are said to number it in decimal. */
+  readonly wRadix: 10 | 16
   /** Digits of X and Y in ASCII code: as the port is set ("ASCII (X,Y OCT)", "(X,Y HEX)"), or always hexadecimal. */
   readonly asciiXy: 'setting' | 'hexadecimal'
   readonly frames: readonly FrameName[]
@@ -260,7 +264,7 @@ export interface Profile {
   readonly notes: readonly string[]
   /** Where the single figures above come from. */
   readonly sources: Readonly<
-    Record<'xyRadix' | 'asciiXy' | 'frames' | 'forms' | 'extensions' | 'absentDevices', string>
+    Record<'xyRadix' | 'wRadix' | 'asciiXy' | 'frames' | 'forms' | 'extensions' | 'absentDevices', string>
   >
 }
 
@@ -275,6 +279,7 @@ export type LimitOverrides = Readonly<
 /** What a user may set differently. Each field is merged into the profile's, entry by entry. */
 export interface ProfileOverrides {
   readonly xyRadix?: 8 | 16
+  readonly wRadix?: 10 | 16
   readonly frame?: FrameName
   readonly limits?: LimitOverrides
   /** `true` or a reason: the PLC lacks the command; `false`: it has it (also takes it off the doubtful ones). */
@@ -342,6 +347,14 @@ export function asciiXyOf<T extends 'octal' | 'hexadecimal' | undefined>(
     `${title} has no setting for the digits of X and Y in ASCII code: they are always hexadecimal. Leave asciiXy out.`,
     'asciiXy',
   )
+}
+
+/** How addresses are written: as given, else as the profile has it. */
+export function addressOptionsOf(
+  profile: Profile,
+  { xyRadix = profile.xyRadix, wRadix = profile.wRadix }: Notation = {},
+): AddressOptions {
+  return { xyRadix, wRadix }
 }
 
 /** Why this family has not got the command, and what to do instead; undefined when it has it. */

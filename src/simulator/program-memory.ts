@@ -2,7 +2,7 @@
 import { RequestError } from '../errors'
 import { type ParsedDevice, parseDevice } from '../melsec/address'
 import { type DeviceAddress, type DeviceName, deviceInfo } from '../melsec/device'
-import type { Profile } from '../melsec/profile'
+import { addressOptionsOf, type Profile } from '../melsec/profile'
 import {
   bitOf,
   decodeValue,
@@ -172,7 +172,7 @@ export class ProgramMemory {
   }
 
   #wordDevice(text: string): ParsedDevice {
-    const parsed = parseDevice(text, { xyRadix: this.#profile.xyRadix })
+    const parsed = parseDevice(text, addressOptionsOf(this.#profile))
     const { address, bit, digits } = parsed
     const modified = address.extension ?? address.index ?? address.indirect ?? bit ?? digits
     if (modified === undefined && deviceInfo(address.device).unit === 'word') return parsed
@@ -183,7 +183,7 @@ export class ProgramMemory {
     const key = type === undefined ? text : `${text}:${type}`
     const known = this.#parsed.get(key)
     if (known !== undefined) return known
-    const parsed = parseDevice(text, { xyRadix: this.#profile.xyRadix })
+    const parsed = parseDevice(text, addressOptionsOf(this.#profile))
     const target = { ...parsed, type: type === undefined ? usualType(parsed) : parseType(type) }
     checkTarget(text, target)
     this.#parsed.set(key, target)

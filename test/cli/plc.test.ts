@@ -66,6 +66,21 @@ describe('identify', () => {
     expect(out).toContain('iq-r (this was asked as generic: use --profile iq-r)')
   })
 
+  test('warns of an inverter that is said to number W in decimal, unless it is asked so', async () => {
+    const inverter = createPlcSimulator({ profile: 'generic', model: { name: 'FR-E800-E', code: 0x054f } })
+    await inverter.listen()
+    inverter.memory.setWord('W', 902, 7)
+    const plain = ['--plc', `127.0.0.1:${inverter.tcp?.port}`]
+    const warned = await run('identify', ...plain)
+    expect([warned.code, warned.err]).toEqual([0, expect.stringMatching(/^Warning: FR-E800-E .*--w-radix 10/)])
+    expect(parsed(await run('identify', ...plain, '--json'))).toMatchObject({ warning: { code: 'W_RADIX' } })
+    const decimal = [...plain, '--w-radix', '10']
+    expect((await run('identify', ...decimal)).err).toBe('')
+    expect((await run('read', 'W902', ...decimal)).out).toContain('7')
+    expect((await run('read', 'W902', ...plain)).out).not.toContain('7')
+    await inverter.close()
+  })
+
   test('a 1E frame tells the code of the CPU and not its name', async () => {
     const fx3 = createPlcSimulator({ profile: 'fx3' })
     await fx3.listen()
@@ -431,6 +446,7 @@ describe('wrong use', () => {
     [['read', 'D0', '--plc', '127.0.0.1:1', '--frame', 'ext', '--network', '1', '--station', '125'], /two stations/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--module-io', 'zz'], /hexadecimal/],
     [['read', 'D0', '--plc', '127.0.0.1:1', '--xy-radix', '10'], /8 \(octal\) or 16/],
+    [['read', 'D0', '--plc', '127.0.0.1:1', '--w-radix', '8'], /10 \(decimal\) or 16/],
     [['read'], /missing required argument/],
     [['read', 'D0', '--frobnicate'], /unknown option/],
     [['frobnicate'], /unknown command/],

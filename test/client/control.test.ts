@@ -285,6 +285,23 @@ test('a model that nobody knows is given as it is', () =>
     expect(await client.identify()).toEqual({ model: 'X99CPU', modelCode: 0x7777, models: [] })
   }))
 
+describe('an inverter that is said to number W in decimal', () => {
+  const inverter = { model: { name: 'FR-E800-E', code: 0x054f } }
+
+  test('is warned of where the client writes W in hexadecimal', () =>
+    withLine('tcp 3E binary generic', { plc: inverter }, async ({ client }) => {
+      const { model, warning } = await client.identify()
+      expect(model).toBe('FR-E800-E')
+      expect(warning).toMatchObject({ code: 'W_RADIX', message: expect.stringContaining('Set wRadix to 10') })
+    }))
+
+  test.each([{ wRadix: 10 }, { profileOverrides: { wRadix: 10 } }] as const)('and not with %j', (how) =>
+    withLine('tcp 3E binary generic', { plc: inverter, client: how }, async ({ client }) => {
+      expect(await client.identify()).toEqual({ model: 'FR-E800-E', modelCode: 0x054f, models: [] })
+    }),
+  )
+})
+
 test('commands of control by request() do the same', () =>
   withLine('tcp 4E ascii iq-r', {}, async ({ plc, client }) => {
     await client.request(commands.remoteStop, {})

@@ -172,6 +172,7 @@ for (const name of [
   'asciiXy',
   'asciiZr',
   'xyRadix',
+  'wRadix',
   'route',
   'monitoringTimer',
   'timeout',

@@ -34,6 +34,34 @@ describe.each(['tcp 3E binary iq-f', 'udp 3E ascii iq-f'])('X and Y of %s', (tex
     }))
 })
 
+describe.each([{ wRadix: 10 }, { profileOverrides: { wRadix: 10 } }] as const)('W with %j', (client) => {
+  test('is decimal wherever an address is written or shown', () =>
+    withLine('tcp 3E binary generic', { client }, async ({ plc, client: given }) => {
+      await given.write('W902', 7)
+      expect([plc.memory.word('W', 902), plc.memory.word('W', 0x902)]).toEqual([7, 0])
+      expect(await given.read('W902')).toBe(7)
+      expect(given.explain('W902[10]')).toMatchObject({ first: 'W902', last: 'W911', radix: 10 })
+      expect(given.plan(['W902']).toString()).toContain('W902')
+      expect(given.planWrite([{ item: 'W902', value: 1 }]).toString()).toContain('W902')
+      expect(await given.requestByName('readWords', { head: 'W902', points: 1 })).toEqual({ values: [7] })
+      expect(given.notation).toMatchObject({ wRadix: 10 })
+      const monitor = given.monitor(['W902'])
+      expect((await monitor.read()).map(brief)).toEqual([7])
+      const texts: string[] = []
+      given.on('trace', ({ text }) => texts.push(text))
+      await given.read('W902')
+      expect(texts[0]).toContain('W902')
+    }))
+
+  test('a hexadecimal number is refused, and nothing is sent', () =>
+    withLine('tcp 3E binary generic', { client }, async ({ plc, client: given }) => {
+      const error = await failureOf(given.read('W1F'))
+      expect([error.code, error.outcome]).toEqual(['BAD_ADDRESS', 'notSent'])
+      expect(error.message).toContain('wRadix')
+      expect(plc.statistics.requests).toBe(0)
+    }))
+})
+
 describe('X and Y of a PLC nobody knows', () => {
   test.each(['X8', 'X10', 'Y1F', 'X0..X17', 'K4Y10', 'X17[2]'])('%s may be two things, and is refused', (item) =>
     withLine('tcp 3E binary generic', {}, async ({ plc, client }) => {

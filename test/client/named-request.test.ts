@@ -67,7 +67,7 @@ describe('X and Y', () => {
     plc.write('X10', true)
     expect(await client.requestByName('readBits', head)).toEqual({ values: [true] })
     expect(client.explainRequest('readBits', { head: { device: 'X', number: 8 }, points: 1 }).message).toEqual(head)
-    expect(client.notation).toEqual({ xyRadix: 8 })
+    expect(client.notation).toEqual({ xyRadix: 8, wRadix: 16 })
   })
 
   test('are refused where nobody knows, unless it is said', async () => {
@@ -77,7 +77,7 @@ describe('X and Y', () => {
       field: 'head',
       outcome: 'notSent',
     })
-    expect(client.notation).toEqual({})
+    expect(client.notation).toEqual({ wRadix: 16 })
     const { client: told } = await pair({ profile: 'generic', xyRadix: 16 })
     expect(await told.requestByName('readBits', head)).toEqual({ values: [false] })
   })

@@ -301,10 +301,36 @@ describe('what is no address is refused with what it may have meant', () => {
   })
 })
 
+describe('W in decimal, as SLMP inverters number it', () => {
+  const decimal: AddressOptions = { xyRadix: 16, wRadix: 10 }
+
+  test('is read and written so; without the option it is hexadecimal', () => {
+    expect(parseDevice('W902', decimal)).toEqual({ address: { device: 'W', number: 902 } })
+    expect(parseDevice('W902.F', decimal)).toEqual({ address: { device: 'W', number: 902 }, bit: 15 })
+    expect(formatDevice({ device: 'W', number: 902 }, decimal)).toBe('W902')
+    expect(parseDevice('W902', HEX)).toEqual({ address: { device: 'W', number: 0x902 } })
+    expect(formatDevice({ device: 'W', number: 0x902 }, { xyRadix: 16, wRadix: 16 })).toBe('W902')
+  })
+
+  test('SW, B and link direct devices stay hexadecimal', () => {
+    for (const text of ['SW10', 'B10', 'SB10']) expect(parseDevice(text, decimal).address.number).toBe(16)
+    const direct = parseDevice('J1\\W10', decimal)
+    expect(direct.address.number).toBe(16)
+    expect(formatDevice(direct.address, decimal)).toBe('J1\\W10')
+  })
+
+  test('a hexadecimal digit is refused with what to set', () => {
+    expect(() => parseDevice('W1F', decimal)).toThrow(/W is numbered in decimal here.*wRadix: 16/)
+    const wrong: AddressOptions = JSON.parse('{ "xyRadix": 16, "wRadix": 8 }')
+    expect(() => parseDevice('W1', wrong)).toThrow('wRadix is 8; it is 10 or 16.')
+  })
+})
+
 describe('properties', () => {
   const options: fc.Arbitrary<AddressOptions> = fc.record(
     {
       xyRadix: fc.constantFrom(8 as const, 16 as const),
+      wRadix: fc.constantFrom(10 as const, 16 as const),
       radixOverrides: fc.record({ ZR: fc.constantFrom(10 as const, 16 as const) }),
     },
     { requiredKeys: ['xyRadix'] },

@@ -250,6 +250,19 @@ describe('words', () => {
     expect(lines(explained(request, { profile: 'iq-f', xyRadix: 16 }))).toContain('head: XF (input)')
   })
 
+  test('number W as it is said', () => {
+    const request = read('W', 902, 1)
+    expect(lines(explained(request))).toContain('head: W386 (link register)')
+    expect(lines(explained(request, { wRadix: 10 }))).toContain('head: W902 (link register)')
+    const inAscii = requestFrame(
+      { code: 'ascii', command: 'readWords' },
+      { head: { device: 'W', number: 902 }, points: 1 },
+      '3E',
+    )
+    expect(explained(inAscii, { wRadix: 10 }).notes.join()).toMatch(/^W is read as hexadecimal digits/)
+    expect(explained(inAscii).notes).toEqual([])
+  })
+
   test('name each value of a random read and of blocks', () => {
     const words = [{ device: { device: 'D', number: 5 } }, { device: { device: 'W', number: 16 } }]
     const random = requestFrame(

@@ -28,7 +28,7 @@ describe('a message goes into JSON text and comes back as it was', () => {
     const command = commandNamed(commandName(declaration.title))
     for (const form of forms) {
       const messages = arbitrary(command.request, { ascii: code === 'ascii', form })
-      const notations = fc.constantFrom<Notation>({ xyRadix: 8 }, { xyRadix: 16 }, {})
+      const notations = fc.constantFrom<Notation>({ xyRadix: 8 }, { xyRadix: 16, wRadix: 10 }, { wRadix: 10 }, {})
       fc.assert(
         fc.property(messages, notations, (message, notation) => {
           const json = messageToJson<Command>(command, message, { ...notation, secrets: true })

@@ -98,6 +98,7 @@ describe('every profile', () => {
       'extensions',
       'forms',
       'frames',
+      'wRadix',
       'xyRadix',
     ])
   })
@@ -332,12 +333,13 @@ describe('resolveProfile', () => {
     const before = structuredClone(profiles['iq-f'])
     const profile = resolveProfile('iq-f', {
       xyRadix: 16,
+      wRadix: 10,
       ranges: { D: 16000, ZR: 100 },
       subcommands: { clearError: 1 },
       inFlight: { udpBuffer: 8 },
       lacks: { executeMonitor: false, readBlock: 'firmware 1.0' },
     })
-    expect(profile.xyRadix).toBe(16)
+    expect([profile.xyRadix, profile.wRadix]).toEqual([16, 10])
     expect(profile.ranges.points).toMatchObject({ D: 16000, ZR: 100, M: 7680 })
     expect(profile.subcommands.clearError).toEqual({ value: 1, source: 'set by the user' })
     expect(profile.inFlight).toMatchObject({ tcp: 1, udpBuffer: 8 })
@@ -373,6 +375,7 @@ describe('resolveProfile', () => {
 
   test.each<[string, Parameters<typeof resolveProfile>[1]]>([
     ['profile.xyRadix', { xyRadix: 10 as 8 }],
+    ['profile.wRadix', { wRadix: 8 as 10 }],
     ['profile.limits.remoteStop', { limits: { remoteStop: 1 } }],
     ['profile.limits.readBlock', { limits: { readBlock: 100 } }],
     ['profile.limits.readWords.blocks', { limits: { readWords: { blocks: 1 } } }],

@@ -16,6 +16,7 @@ export const fx3: Profile = profileOver1e(
     series: 'FX3U, FX3UC, FX3G, FX3GC and FX3S CPUs by FX3U-ENET-ADP or FX3U-ENET',
     cpu: 'fx3',
     xyRadix: 8,
+    wRadix: 16,
     asciiXy: 'hexadecimal',
     frames: ['1E'],
     frame: '1E',
@@ -89,6 +90,7 @@ export const fx3: Profile = profileOver1e(
     ],
     sources: {
       xyRadix: manual,
+      wRadix: manual,
       asciiXy:
         'background: FX3U-ENET-ADP user’s manual, p. 55 (data codes) and 81 (Y20 is 00000010); FX3U-ENET user’s manual, p. 9-26',
       frames: `${manual}: A-compatible 1E frame only`,

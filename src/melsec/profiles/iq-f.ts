@@ -79,6 +79,7 @@ export const iqF: Profile = {
   series: 'FX5S, FX5UJ, FX5U and FX5UC CPU modules by their Ethernet port',
   cpu: 'iq-f',
   xyRadix: 8,
+  wRadix: 16,
   asciiXy: 'setting',
   frames: ['3E', '1E'],
   frame: '3E',
@@ -214,6 +215,7 @@ export const iqF: Profile = {
   ],
   sources: {
     xyRadix: '38.2 device numbers of X and Y',
+    wRadix: '38.2 device codes',
     asciiXy: '38.2 and 39.2: communication data code "ASCII (X,Y OCT)" or "ASCII (X,Y HEX)"',
     frames: '36.1: 3E and 1E, no 4E',
     forms: '38.1: the command list has 0000/0001 and 0080 to 0083 only',

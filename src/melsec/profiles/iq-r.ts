@@ -12,6 +12,7 @@ export const iqR: Profile = {
   series: 'R00 to R120 CPUs (also EN, P, SF, PSF) by their Ethernet port or RJ71EN71; iQ-L and MELSEC MX behave alike',
   cpu: 'iq-r',
   xyRadix: 16,
+  wRadix: 16,
   asciiXy: 'hexadecimal',
   frames: ['4E', '3E', 'ext'],
   frame: '4E',
@@ -129,6 +130,7 @@ export const iqR: Profile = {
   ],
   sources: {
     xyRadix: 'device table of the SLMP reference manual',
+    wRadix: 'device table of the SLMP reference manual',
     asciiXy: 'device table of the SLMP reference manual: hexadecimal numbers',
     frames: '4.1; 4E as default for its serial number; the station extension frame by an RJ71GN11-T2 only (2.3)',
     forms: '5.2: 0002/0003 for iQ-R, 0000/0001 for compatibility with Q and L',

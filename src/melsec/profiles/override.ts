@@ -143,6 +143,11 @@ function withXyRadix(profile: Profile, xyRadix: 8 | 16): Profile {
   return bad('profile.xyRadix', `profile.xyRadix is 8 (octal) or 16 (hexadecimal), not ${String(xyRadix)}.`)
 }
 
+function withWRadix(profile: Profile, wRadix: 10 | 16): Profile {
+  if (wRadix === 10 || wRadix === 16) return { ...profile, wRadix }
+  return bad('profile.wRadix', `profile.wRadix is 10 (decimal) or 16 (hexadecimal), not ${String(wRadix)}.`)
+}
+
 function withFrame(profile: Profile, frame: Profile['frame']): Profile {
   if (profile.frames.includes(frame)) return { ...profile, frame }
   return bad('profile.frame', `${profile.title} has no ${String(frame)} frame. Use ${profile.frames.join(' or ')}.`)
@@ -150,6 +155,7 @@ function withFrame(profile: Profile, frame: Profile['frame']): Profile {
 
 const FIELDS = {
   xyRadix: true,
+  wRadix: true,
   frame: true,
   limits: true,
   lacks: true,
@@ -165,9 +171,10 @@ export function withOverrides(profile: Profile, overrides: ProfileOverrides): Pr
     if (Object.hasOwn(FIELDS, name)) continue
     bad(`profile.${name}`, `A profile has no ${name} that could be set. Fields: ${Object.keys(FIELDS).join(', ')}.`)
   }
-  const { xyRadix, frame, limits, lacks, ranges, subcommands, inFlight, zrCountsDouble } = overrides
+  const { xyRadix, wRadix, frame, limits, lacks, ranges, subcommands, inFlight, zrCountsDouble } = overrides
   let merged = profile
   if (xyRadix !== undefined) merged = withXyRadix(merged, xyRadix)
+  if (wRadix !== undefined) merged = withWRadix(merged, wRadix)
   if (frame !== undefined) merged = withFrame(merged, frame)
   if (limits !== undefined) merged = withLimits(merged, limits)
   if (lacks !== undefined) merged = withLacks(merged, lacks)

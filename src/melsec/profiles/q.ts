@@ -72,6 +72,7 @@ export const q: Profile = {
     'QCPU by QJ71E71-100, and QnUDE, QnUDV and QnUDPV CPUs by their own Ethernet port, when it is not known which',
   cpu: 'q',
   xyRadix: 16,
+  wRadix: 16,
   asciiXy: 'hexadecimal',
   frames: ['3E', '4E'],
   frame: '3E',
@@ -168,6 +169,7 @@ export const q: Profile = {
   ],
   sources: {
     xyRadix: 'device table of the SLMP reference manual',
+    wRadix: 'device table of the SLMP reference manual',
     asciiXy: 'device table of the SLMP reference manual: hexadecimal numbers',
     frames: '4.1 and appendix 2; 3E as default because older modules and CPUs lack 4E (background)',
     forms: '5.2: 0000/0001 and 0080/0081 for Q and L',
