@@ -16,14 +16,14 @@ const migrations: readonly Migration[] = []
 const sources = ['rows', 'msg', 'flow', 'global', 'env', 'jsonata', 'str', 'json'] as const
 
 function prepare(settings: StoredSettings, tools: Tools): Work {
-  const { RED, connection, texts } = tools
+  const { RED, node, connection, texts } = tools
   const itemsFor = itemSource(settings, tools)
   const output = outputOf(settings, tools)
   const planFor = preparedPlans()
   return async (message) => {
     const { names, items } = await itemsFor(message)
     checkForm(output.form, items.length, texts)
-    const results = nameResults(await planFor(connection.client, items).run(), names)
+    const results = nameResults(await planFor(connection.client, items).run({ caller: node.id }), names)
     return answerOf(output, { names, results }, message, { RED, texts })
   }
 }

@@ -8,6 +8,11 @@ export interface CallOptions {
   /** ms from now until nobody waits any more: connecting, queueing, sending and answering included. */
   readonly timeout?: number
   readonly signal?: AbortSignal
+  /**
+   * Who asks, as a text or any object. Calls of one caller wait for one another, and callers take turns, so that one who
+   * asks a lot does not keep the others waiting. Without it each call is a caller of its own.
+   */
+  readonly caller?: string | object
 }
 
 /** What this package's own calls may say beside. */
@@ -17,8 +22,6 @@ export interface BoundOptions extends CallOptions {
    * pointer, may mean something else on the next.
    */
   readonly onlyOn?: number
-  /** Who asks: requests of one caller wait for one another, and callers take turns. */
-  readonly caller?: unknown
 }
 
 /** A call may wait for a day, as the option `timeout` of the client. */
@@ -27,7 +30,7 @@ const LONGEST = 24 * 60 * 60 * 1000
 /** Names of options, each once: the type sees to it that none is missing. */
 export type OptionNames<Options> = Readonly<Record<keyof Options, true>>
 
-const OF_EVERY_CALL: OptionNames<CallOptions> = { timeout: true, signal: true }
+const OF_EVERY_CALL: OptionNames<CallOptions> = { timeout: true, signal: true, caller: true }
 
 /**
  * The part of a call's options that every call has.
@@ -40,8 +43,12 @@ export function callOptionsOf(given: CallOptions | undefined, own: Readonly<Reco
   checkNames('', given, { ...own, ...OF_EVERY_CALL })
   const problem = optionProblem(given)
   if (problem !== undefined) throw problem
-  const { timeout, signal } = given
-  return { ...(timeout === undefined ? {} : { timeout }), ...(signal === undefined ? {} : { signal }) }
+  const { timeout, signal, caller } = given
+  return {
+    ...(timeout === undefined ? {} : { timeout }),
+    ...(signal === undefined ? {} : { signal }),
+    ...(caller === undefined ? {} : { caller }),
+  }
 }
 
 /**
@@ -52,13 +59,16 @@ export function optionProblem(options: CallOptions): RequestError | undefined {
   if (typeof options !== 'object' || options === null) {
     return new RequestError('BAD_OPTION', 'The options of a call are an object, e.g. { timeout: 1000 }.', 'options')
   }
-  const { timeout, signal } = options
+  const { timeout, signal, caller } = options
   if (timeout !== undefined && !(typeof timeout === 'number' && timeout > 0 && timeout <= LONGEST)) {
     const message = `timeout is ${String(timeout)}; it must be a number of milliseconds, more than 0 and at most ${LONGEST}.`
     return new RequestError('BAD_OPTION', message, 'timeout')
   }
   if (signal !== undefined && typeof signal?.addEventListener !== 'function') {
     return new RequestError('BAD_OPTION', 'signal is no AbortSignal: use the signal of an AbortController.', 'signal')
+  }
+  if (caller !== undefined && typeof caller !== 'string' && (typeof caller !== 'object' || caller === null)) {
+    return new RequestError('BAD_OPTION', 'caller is a text or an object: who asks.', 'caller')
   }
   return undefined
 }

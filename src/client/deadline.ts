@@ -26,7 +26,8 @@ export class Deadline {
   options(title: string): CallOptions {
     const timeout = this.#end - this.#clock.now()
     if (timeout <= 0) throw failure.notSentInTime(title)
-    return { ...this.#options, timeout }
+    // Without a caller of its own, all requests of the call are one caller's: the call's.
+    return { caller: this, ...this.#options, timeout }
   }
 
   /** Waits for the end of something else. Rejects with a `PlcError` when the call ends before it. */

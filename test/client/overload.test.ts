@@ -1,6 +1,7 @@
 /** More is asked than the PLC answers: what waits too long is told as that, and everything else goes on. */
 import { describe, expect, test } from '@jest/globals'
 import { Bench, type Tracked } from './bench'
+import { withLine } from './line'
 import { type Script, silent } from './scripted-plc'
 
 const ANSWER = 40
@@ -32,7 +33,7 @@ describe.each(['3E', '4E'] as const)(
       const reads: Tracked<unknown>[][] = Array.from({ length: 7 }, () => [])
       const writes: Tracked<unknown>[] = []
       for (let now = 0; now < 40_000; now += 200) {
-        for (const [caller, asked] of reads.entries()) asked.push(bench.read(caller, { caller }))
+        for (const [caller, asked] of reads.entries()) asked.push(bench.read(caller, { caller: `node ${caller}` }))
         if (now % 1000 === 0) writes.push(bench.write(9000, now))
         await bench.pass(200)
       }
@@ -88,3 +89,23 @@ test('a call of many requests does not keep those of others waiting', async () =
   expect(other.told).toEqual({ values: [5000] })
   expect(many.filter(({ told }) => told !== 'pending').length).toBeLessThan(5)
 })
+
+test('the requests of one call take one turn, and the callers that the program names take theirs', () =>
+  withLine('tcp 3E binary iq-r', { client: { gap: 0, timeout: 10_000 } }, async ({ plc, client }) => {
+    await client.connect()
+    plc.faults.add({ kind: 'delay', ms: 5 })
+    const order: string[] = []
+    const note = (name: string) => () => void order.push(name)
+    const large = Array.from({ length: 30 }, (_, i) => `D${i * 1000}[900]`)
+    const all = [
+      client.read(large).then(note('large')),
+      ...[1, 2, 3].map((i) => client.read(`D${i}`, { caller: 'trend' }).then(note(`trend ${i}`))),
+      client.read('D10').then(note('other')),
+    ]
+    await Promise.all(all)
+    expect(order).toEqual(['trend 1', 'other', 'trend 2', 'trend 3', 'large'])
+    await expect(client.read('D0', { caller: 5 as never })).rejects.toMatchObject({
+      code: 'BAD_OPTION',
+      field: 'caller',
+    })
+  }))
