@@ -136,13 +136,12 @@ export class Connection {
 
   /** The log gets each new reason once, not every attempt of a night without the PLC. */
   #log(state: ConnectionState): void {
-    const { name, error } = state
-    if (name === 'connected') {
+    if (state.name === 'connected') {
       this.#complained = undefined
       this.node.log(this.texts('log.connected', { peer: this.#peer() }))
-    } else if (name === 'waiting' && error !== undefined && error.code !== this.#complained) {
-      this.#complained = error.code
-      this.node.warn(error.message)
+    } else if (state.name === 'waiting' && state.error.code !== this.#complained) {
+      this.#complained = state.error.code
+      this.node.warn(state.error.message)
     }
   }
 

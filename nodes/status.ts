@@ -55,12 +55,12 @@ function ofState(state: ConnectionState): NodeStatus {
     case 'connected':
       return { fill: 'green', shape: 'dot', text: 'node-red:common.status.connected' }
     case 'waiting':
-      return ofCode(state.error?.code ?? 'DISCONNECTED')
+      return ofCode(state.error.code)
     case 'idle':
     case 'closed':
       return {}
     default:
-      return state.name satisfies never
+      return state satisfies never
   }
 }
 

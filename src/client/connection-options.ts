@@ -1,9 +1,9 @@
 // What a connection is told and what it tells.
-import type { EndCodeError, PlcError } from '../errors'
+import type { EndCodeError } from '../errors'
 import type { Echo, Exchange, Framing, RequestFrame } from '../link/link'
 import type { Clock } from '../transport/clock'
 import type { OpenTransport } from '../transport/transport'
-import type { ConnectionStateName, SupervisorOptions } from './supervisor'
+import type { Phase, SupervisorOptions } from './supervisor'
 
 /** A frame as it went over the wire. */
 export interface TracedFrame {
@@ -13,17 +13,15 @@ export interface TracedFrame {
   readonly bytes: Buffer
 }
 
-/** The state of a connection, for people and programs. */
-export interface ConnectionState {
-  readonly name: ConnectionStateName
+/**
+ * The state of a connection, for people and programs: `name` narrows the type. `error` is always there in `waiting`, and in
+ * `connecting` and `closed` when the last attempt failed; `nextAttempt` (milliseconds since 1970) is in `waiting` only.
+ */
+export type ConnectionState = Phase & {
   /** Milliseconds since 1970. */
   readonly since: number
   /** Attempts since the last connection that worked. */
   readonly attempt: number
-  /** Why there is no connection. */
-  readonly error?: PlcError
-  /** Milliseconds since 1970: when the next attempt starts. */
-  readonly nextAttempt?: number
 }
 
 /** What is known about a silence, for whoever explains it. */

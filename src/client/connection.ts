@@ -73,14 +73,10 @@ export class Connection<Head> {
   }
 
   get state(): ConnectionState {
-    const { name, attempt, error, nextAttempt } = this.#supervisor
-    return {
-      name,
-      since: this.#since,
-      attempt,
-      ...(error === undefined ? {} : { error }),
-      ...(nextAttempt === undefined ? {} : { nextAttempt: this.#clock.time() + nextAttempt - this.#clock.now() }),
-    }
+    const { phase, attempt } = this.#supervisor
+    const known = { since: this.#since, attempt }
+    if (phase.nextAttempt === undefined) return { ...phase, ...known }
+    return { ...phase, ...known, nextAttempt: this.#clock.time() + phase.nextAttempt - this.#clock.now() }
   }
 
   /** Counts the connections that worked: what the PLC remembers per connection is gone when this changes. */
