@@ -51,6 +51,8 @@ export class Fence<Head> {
   /** A session begins: of what came before on this port nothing is known. */
   begin(): void {
     this.#fall()
+    // Not returned once is not proof that it never is.
+    if (this.#echoes === false) this.#echoes = undefined
   }
 
   /** A request leaves: from now on its answer may be on its way, and later a second copy of it. */
@@ -99,7 +101,10 @@ export class Fence<Head> {
       return 'echo'
     }
     if (this.#asked.length > 0) return 'stray'
-    return this.#former.some((echo) => this.#isEcho(echo, datagram)) ? 'stray' : undefined
+    if (!this.#former.some((echo) => this.#isEcho(echo, datagram))) return undefined
+    // Later than was waited for: it does return them.
+    this.#echoes = true
+    return 'stray'
   }
 
   #fall(): void {

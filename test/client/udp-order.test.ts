@@ -272,6 +272,38 @@ test.each<[string, Answer0619]>([
   expect(asked).not.toContain(200)
 })
 
+test('a self test that comes back later than it was waited for shows that the PLC returns them', async () => {
+  const echoes: (() => void)[] = []
+  let slow = true
+  const { port, asked } = await plainPlc((bytes, reply) => {
+    const command = bytes.readUInt16LE(11)
+    if (command === 0x0101) return reply(typeName3e(bytes))
+    if (command === 0x0401) return reply(answer3e(bytes, 0, word(bytes.readUIntLE(15, 3))))
+    const echo = () => reply(answer3e(bytes, 0, bytes.subarray(15)))
+    return slow ? void echoes.push(echo) : echo()
+  })
+  const client = createMelsecClient({
+    host: '127.0.0.1',
+    port,
+    transport: 'udp',
+    frame: '3E',
+    profile: 'q',
+    localPort: await freePort(),
+    timeout: 400,
+  })
+  cleanups.push(() => client.close())
+  await client.connect()
+  expect(await client.read('D1')).toBe(1)
+  for (const echo of echoes.splice(0)) echo()
+  await until(() => client.statistics.stale > 0)
+  // From now on nothing is sent without it.
+  const read = told(client.read('D2'))
+  expect(await read).toBe('TIMEOUT notSent')
+  expect(asked).toEqual([1])
+  slow = false
+  expect(await client.read('D3', { timeout: 5000 })).toBe(3)
+})
+
 type Answer0619 = (request: Buffer) => Buffer | undefined
 
 function answer3e(request: Buffer, endCode: number, data: Buffer): Buffer {
