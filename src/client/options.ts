@@ -333,8 +333,9 @@ function reachable({ title, reach }: Profile, route: Route): Route {
 }
 
 /**
- * On a fixed port a late answer is told from the next one by a self test, which the connected station returns. It proves
- * nothing about a request that this station passes on to another one.
+ * On a fixed port a late answer is told from the next one by a self test, which the connected module returns. It proves
+ * nothing about a request that is passed on: the pattern may be back before the answer of another station, of a station
+ * behind a serial module or of another CPU. CPU No. 1 (03E0) and the control system (03D0) need not be the own CPU.
  */
 function provable(
   { localPort = 0 }: MelsecClientOptions,
@@ -342,10 +343,13 @@ function provable(
   frame: FrameName,
   route: Route,
 ): Route {
-  if (transport === 'tcp' || localPort === 0 || frameFacts[frame].serial || isConnectedStation(route)) return route
+  if (transport === 'tcp' || localPort === 0 || frameFacts[frame].serial) return route
+  if (isConnectedStation(route) && route.moduleIo === ownStation.moduleIo && route.multidrop === ownStation.multidrop) {
+    return route
+  }
   const message =
-    `With the ${frame} frame over UDP and a fixed localPort only the connected station can be reached: a late answer of another ` +
-    'station could not be told from the next one. Leave localPort out, or use the 4E frame or TCP.'
+    `With the ${frame} frame over UDP and a fixed localPort only the connected station and its own CPU (module I/O 03FF) can be ` +
+    'reached: a late answer of another one could not be told from the next one. Leave localPort out, or use the 4E frame or TCP.'
   throw new RequestError('BAD_OPTION', message, 'localPort')
 }
 

@@ -215,19 +215,23 @@ describe.each(['3E', '1E'] as const)('%s over UDP', (frame) => {
   })
 })
 
-test('3E from a fixed port to another station is refused, because the self test proves nothing there', async () => {
-  const routed = {
-    host: '127.0.0.1',
-    port: 1,
-    transport: 'udp',
-    profile: 'q',
-    route: { network: 1, station: 2 },
-  } as const
+test.each([
+  { network: 1, station: 2 },
+  { moduleIo: 0x3e0 },
+  { moduleIo: 0x3e1 },
+  { moduleIo: 0x3d0 },
+  { moduleIo: 0x3d1 },
+  { moduleIo: 0x10 },
+  { moduleIo: 0x10, multidrop: 1 },
+])('3E from a fixed port to %j is refused, because the self test proves nothing there', async (route) => {
+  const routed = { host: '127.0.0.1', port: 1, transport: 'udp', profile: 'q', route } as const
   expect(() => createMelsecClient({ ...routed, frame: '3E', localPort: 5000 })).toThrow(
-    'With the 3E frame over UDP and a fixed localPort',
+    'With the 3E frame over UDP and a fixed localPort only the connected station and its own CPU (module I/O 03FF) can be reached',
   )
   await createMelsecClient({ ...routed, frame: '3E' }).close()
   await createMelsecClient({ ...routed, frame: '4E', localPort: 5000 }).close()
+  await createMelsecClient({ ...routed, frame: '3E', transport: 'tcp', localPort: 5000 }).close()
+  await createMelsecClient({ ...routed, frame: '3E', localPort: 5000, route: { moduleIo: 0x3ff } }).close()
 })
 
 test.each<[string, Answer0619]>([
