@@ -19,7 +19,7 @@ export interface NamedEntry {
  * @throws NodeFailure BAD_INPUT when it is not that; nothing is written then.
  */
 export function entriesByName(given: unknown, rows: readonly ItemRow[], texts: Texts): NamedEntry[] {
-  if (typeof given !== 'object' || given === null || Array.isArray(given) || Buffer.isBuffer(given)) {
+  if (typeof given !== 'object' || given === null || Array.isArray(given) || ArrayBuffer.isView(given)) {
     throw refusal('BAD_INPUT', texts('error.notValues', { kind: kindOf(given) }))
   }
   const entries = Object.entries(given)
@@ -44,8 +44,17 @@ function entryOf(name: string, value: unknown, rows: readonly ItemRow[], texts: 
 /** @throws NodeFailure BAD_VALUE naming the item when it is no value a PLC can hold. */
 export function writable(name: string, value: unknown, texts: Texts): WritableValue {
   if (isPlcValue(value)) return value
-  if (Array.isArray(value) && value.every(isPlcValue)) return value
+  const list = isNumberArray(value) ? Array.from(value) : value
+  if (Array.isArray(list) && list.every(isPlcValue)) return list
   throw refusal('BAD_VALUE', texts('error.notWritable', { name, kind: kindOf(value) }), { field: name })
+}
+
+/**
+ * A typed array, also of a function node's realm. A Buffer holds bytes, and whether one of them or two are a word nobody
+ * knows.
+ */
+function isNumberArray(value: unknown): value is ArrayLike<number | bigint> {
+  return ArrayBuffer.isView(value) && !Buffer.isBuffer(value) && 'length' in value
 }
 
 function isPlcValue(value: unknown): value is PlcValue {

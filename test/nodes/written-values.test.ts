@@ -195,3 +195,57 @@ describe('the address in the topic', () => {
     expect(plc.read('M300')).toBe(true)
   })
 })
+
+describe('typed arrays, as a function node makes them', () => {
+  const made = (values: string, more = {}) => [
+    writable(),
+    { id: 'make', type: 'function', z: 'tab', func: `msg.payload = ${values}; return msg`, wires: [['write']] },
+    writeNode(more),
+    catchNode(),
+  ]
+
+  test.each([
+    ['{ "D150[3]": Int16Array.of(-1, 2, 3) }', ['D150:INT', 'D151:INT', 'D152:INT'], [-1, 2, 3]],
+    ['{ "D150:UINT[2]": Uint16Array.of(65535, 2) }', ['D150:UINT', 'D151:UINT'], [65535, 2]],
+    ['{ "D150:WORD[2]": Uint8Array.of(255, 2) }', ['D150:WORD', 'D151:WORD'], [255, 2]],
+    ['{ "D150:DINT[2]": Int32Array.of(-70000, 2) }', ['D150:DINT', 'D152:DINT'], [-70000, 2]],
+    ['{ "D150:REAL[2]": Float32Array.of(1.5, -0.25) }', ['D150:REAL', 'D152:REAL'], [1.5, -0.25]],
+    ['{ "D150:LREAL[2]": Float64Array.of(0.1, 2) }', ['D150:LREAL', 'D154:LREAL'], [0.1, 2]],
+    [
+      '{ "D150:LINT[2]": BigInt64Array.of(-1n, 9007199254740993n) }',
+      ['D150:LINT', 'D154:LINT'],
+      [-1n, 9007199254740993n],
+    ],
+  ])('%s', async (values, addresses, expected) => {
+    await red.deploy(made(values, { readBack: true }))
+    await red.status('write', { fill: 'green' })
+    await red.receive('make', {})
+    expect(await red.completed('write')).not.toHaveProperty('error')
+    expect(addresses.map((address) => plc.read(address))).toEqual(expected)
+  })
+
+  test('by the address in the topic', async () => {
+    await red.deploy(made('Int16Array.of(4, 5)', { valuesType: 'topic' }))
+    await red.status('write', { fill: 'green' })
+    await red.receive('make', { topic: 'D150[2]' })
+    expect(await red.completed('write')).not.toHaveProperty('error')
+    expect([plc.read('D150'), plc.read('D151')]).toEqual([4, 5])
+  })
+
+  test.each([
+    ['{ "D150[2]": Int16Array.of(1, 2, 3) }', 'BAD_VALUE'],
+    ['{ "D150[2]": Int32Array.of(1, 70000) }', 'BAD_VALUE'],
+    ['{ "D150": Int16Array.of(1) }', 'BAD_VALUE'],
+    ['{ "D150[2]": Buffer.from([1, 2]) }', 'BAD_VALUE'],
+    ['{ "D150[2]": new DataView(new ArrayBuffer(2)) }', 'BAD_VALUE'],
+    ['Int16Array.of(1, 2)', 'BAD_INPUT'],
+  ])('%s does not fit: nothing is written', async (values, code) => {
+    await red.deploy(made(values))
+    await red.status('write', { fill: 'green' })
+    const before = plc.statistics.requests
+    await red.receive('make', {})
+    expect(await red.completed('write')).toHaveProperty('error')
+    const { error } = (await red.next('catch')) as Message & { error: CaughtError }
+    expect([error.code, error.cause?.outcome, plc.statistics.requests]).toEqual([code, 'notSent', before])
+  })
+})
