@@ -1,8 +1,8 @@
 // Buffer memory by Memory and Extend Unit: of the connected module itself, and of MELSEC-Q modules by their names.
 import { type Command, InvalidArgumentError, Option } from 'commander'
-import { type BufferMemory, createMelsecClient, type MelsecClient, type ModulePlace, RequestError } from '../index'
+import { type BufferMemory, type MelsecClient, type ModulePlace, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform, type Run } from './command'
-import { addConnectionOptions, type ConnectionOptions, clientOptions, peerText, withClient } from './connection-options'
+import { addConnectionOptions, type ConnectionOptions, peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import { json, table } from './output'
 import { refusalOf, type Terminal } from './terminal'
@@ -93,8 +93,7 @@ interface Asked {
 async function read(terminal: Terminal, whose: Whose, { at, words }: Asked, options: MemoryOptions): Promise<number> {
   const [points = 0, ...more] = words
   if (more.length > 0) throw new RequestError('BAD_OPTION', 'read takes an address and how many words.', 'numbers')
-  // A module that is not known is said before anything is connected.
-  whose.of(createMelsecClient(clientOptions(options)), options)
+  await refuseUnsent(options, {}, async (client) => whose.of(client, options).read(at, points))
   const values = await withClient(terminal, options, {}, (client) => whose.of(client, options).read(at, points))
   if (options.json === true) terminal.out(json({ address: at, values }))
   else terminal.out(table(rowsOf(at, values)))
@@ -102,9 +101,9 @@ async function read(terminal: Terminal, whose: Whose, { at, words }: Asked, opti
 }
 
 async function write(terminal: Terminal, whose: Whose, { at, words }: Asked, options: MemoryOptions): Promise<number> {
-  whose.of(createMelsecClient(clientOptions(options)), options)
   const wide = words.find((word) => word > 0xffff)
   if (wide !== undefined) throw new RequestError('BAD_VALUE', `${wide} is no word: 0 to 65535.`, 'numbers')
+  await refuseUnsent(options, { allowWrites: true }, async (client) => whose.of(client, options).write(at, words))
   const question = `Write to the buffer memory of ${whose.title(options)}, ${peerText(options)}:\n${table(rowsOf(at, words), '  ')}`
   const refusal = await refusalOf(terminal, options.yes === true, question)
   if (refusal !== undefined) throw new RequestError('NOT_PERMITTED', `Nothing was written. ${refusal}`, '--yes')

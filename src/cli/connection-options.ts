@@ -7,6 +7,8 @@ import {
   type MelsecClient,
   type MelsecClientOptions,
   moduleIoNumbers,
+  type OpenTransport,
+  PlcError,
   type ProfileId,
   profileIds,
   profiles,
@@ -358,6 +360,30 @@ export async function withClient<T>(
     // A deadline of its own: it holds the attempt and the answer that proves the connection, and says why it failed.
     await client.connect({ timeout: options.connectTimeout + options.timeout })
     return await work(client)
+  } finally {
+    await client.close()
+  }
+}
+
+const nowhere: OpenTransport = () => {
+  throw new Error('There is no way to a PLC: only what is refused before it is sent counts.')
+}
+
+/**
+ * What the client refuses before it sends anything, such as a command that the profile lacks: said before anybody is
+ * asked, and before a connection is tried. A client that cannot connect makes the call.
+ * @throws RequestError
+ */
+export async function refuseUnsent(
+  options: ConnectionOptions,
+  allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'>,
+  call: (client: MelsecClient) => Promise<unknown>,
+): Promise<void> {
+  const client = createMelsecClient({ ...clientOptions(options, allow), openTransport: nowhere })
+  try {
+    await call(client)
+  } catch (error) {
+    if (error instanceof RequestError || !(error instanceof PlcError)) throw error
   } finally {
     await client.close()
   }

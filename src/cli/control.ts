@@ -1,6 +1,13 @@
 import { type ClearMode, type MelsecClient, RequestError, type RunOptions } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { addConnectionOptions, type ConnectionOptions, choice, peerText, withClient } from './connection-options'
+import {
+  addConnectionOptions,
+  type ConnectionOptions,
+  choice,
+  peerText,
+  refuseUnsent,
+  withClient,
+} from './connection-options'
 import { exitCodes } from './exit-code'
 import { json } from './output'
 import { refusalOf, type Terminal } from './terminal'
@@ -127,6 +134,7 @@ export const controlCommand: MakeCommand = (run) => {
 
 async function control(terminal: Terminal, name: string, options: ControlOptions): Promise<number> {
   const action = actionOf(name, options)
+  await refuseUnsent(options, { allowControl: true }, (client) => action.run(client, options))
   const question = `${action.title} of ${peerText(options)}: ${action.effect}.`
   const refusal = await refusalOf(terminal, options.yes === true || action.harmless === true, question)
   if (refusal !== undefined) throw new RequestError('NOT_PERMITTED', `Nothing was sent. ${refusal}`, '--yes')

@@ -1,5 +1,5 @@
 import { type MakeCommand, newCommand, perform } from './command'
-import { peerText, withClient } from './connection-options'
+import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import { addChangeOptions, type ChangeOptions, confirmChange, FILE_ARGUMENT, filePasswordOf } from './file-options'
 import { json } from './output'
@@ -18,6 +18,7 @@ export const cpCommand: MakeCommand = (run) => {
 }
 
 async function copy(terminal: Terminal, from: string, to: string, options: ChangeOptions): Promise<number> {
+  await refuseUnsent(options, { allowWrites: true }, ({ files }) => files.copy(from, to))
   await confirmChange(terminal, options, `Copy ${from} to ${to}.`)
   const password = await filePasswordOf(terminal, options)
   return withClient(terminal, options, { allowWrites: true }, async (client) => {

@@ -4,7 +4,7 @@ import { join } from 'node:path'
 import { pipeline } from 'node:stream/promises'
 import { RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { peerText, withClient } from './connection-options'
+import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import { addFileOptions, FILE_ARGUMENT, type FileOptions, filePasswordOf, nameOf, progressOn } from './file-options'
 import { json } from './output'
@@ -34,6 +34,7 @@ async function get(terminal: Terminal, file: string, given: string | undefined, 
   if (options.force !== true && (await exists(local))) {
     throw new RequestError('BAD_OPTION', `${local} exists: say --force to replace it. Nothing was sent.`, 'local')
   }
+  await refuseUnsent(options, {}, ({ files }) => files.read(file))
   const password = await filePasswordOf(terminal, options)
   return withClient(terminal, options, {}, async (client) => {
     let size = 0

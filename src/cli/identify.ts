@@ -25,10 +25,10 @@ function identify(terminal: Terminal, options: ConnectionOptions): Promise<numbe
         return exitCodes.refused.code
       }
       if (!(error instanceof RequestError) || error.code !== 'UNSUPPORTED') throw error
-      // The profile knows that, so it was not asked. Connecting asks for something else.
+      // The profile knows that, so it was not asked. Connecting asks for something else, and that is worth knowing.
       await client.connect()
       showUnnamed(terminal, options, client, error)
-      return exitCodes.ok.code
+      return exitCodes.usage.code
     }
   })
 }

@@ -1,6 +1,13 @@
 import { createMelsecClient, type FileEntry, formatFileTime, isFileTime, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { addConnectionOptions, type ConnectionOptions, clientOptions, peerText, withClient } from './connection-options'
+import {
+  addConnectionOptions,
+  type ConnectionOptions,
+  clientOptions,
+  peerText,
+  refuseUnsent,
+  withClient,
+} from './connection-options'
 import { exitCodes } from './exit-code'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
@@ -34,7 +41,8 @@ async function drives(terminal: Terminal, options: ConnectionOptions): Promise<n
   return exitCodes.ok.code
 }
 
-function list(terminal: Terminal, directory: string, options: ConnectionOptions): Promise<number> {
+async function list(terminal: Terminal, directory: string, options: ConnectionOptions): Promise<number> {
+  await refuseUnsent(options, {}, ({ files }) => files.list(directory))
   return withClient(terminal, options, {}, async (client) => {
     const entries = await client.files.list(directory)
     if (options.json === true) terminal.out(json({ plc: peerText(options), directory, entries }))

@@ -3,7 +3,7 @@ import { stat } from 'node:fs/promises'
 import { basename } from 'node:path'
 import { RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { choice, peerText, withClient } from './connection-options'
+import { choice, peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import {
   addChangeOptions,
@@ -48,10 +48,12 @@ export const putCommand: MakeCommand = (run) => {
 async function put(terminal: Terminal, local: string, given: string, options: PutOptions): Promise<number> {
   const file = /[:\\/]$/.test(given.trim()) ? `${given.trim()}${basename(local)}` : given
   const size = await sizeOf(local)
-  await confirmChange(terminal, options, `${local} (${size} bytes) -> ${file}, ${options.mode}.`)
+  const { mode } = options
+  await refuseUnsent(options, { allowWrites: true }, ({ files }) => files.write(file, [], { size, mode }))
+  await confirmChange(terminal, options, `${local} (${size} bytes) -> ${file}, ${mode}.`)
   const password = await filePasswordOf(terminal, options)
   return withClient(terminal, options, { allowWrites: true }, async (client) => {
-    const how = { ...password, size, mode: options.mode, onProgress: progressOn(terminal) }
+    const how = { ...password, size, mode, onProgress: progressOn(terminal) }
     await client.files.write(file, createReadStream(local), how).catch((error: unknown) => {
       throw localFault(error) ?? error
     })

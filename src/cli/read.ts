@@ -40,15 +40,20 @@ export const readCommand: MakeCommand = (run) => {
 }
 
 async function read(terminal: Terminal, items: readonly string[], options: ReadOptions): Promise<number> {
+  const offline = createMelsecClient(clientOptions(options))
+  const plan = offline.plan(items).describe()
   if (options.plan === true) {
-    const plan = createMelsecClient(clientOptions(options)).plan(items).describe()
     terminal.out(planText(plan, options.json === true))
     return exitOfPlan(plan, items)
   }
-  const { results, explanations } = await withClient(terminal, options, {}, async (client) => ({
+  const asked = async (client: MelsecClient) => ({
     results: await client.read(items),
     explanations: items.map((item) => explanationOf(client, item)),
-  }))
+  })
+  // Where every item is refused there is nothing to connect for.
+  const { results, explanations } = await (plan.requests.length === 0
+    ? asked(offline)
+    : withClient(terminal, options, {}, asked))
   if (options.json === true) terminal.out(json({ results: results.map(resultData) }))
   else {
     const rows = results.flatMap((result, i) =>

@@ -1,5 +1,5 @@
 import { type MakeCommand, newCommand, perform } from './command'
-import { peerText, withClient } from './connection-options'
+import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import { addChangeOptions, type ChangeOptions, confirmChange, FILE_ARGUMENT, filePasswordOf } from './file-options'
 import { json } from './output'
@@ -20,6 +20,7 @@ export const rmCommand: MakeCommand = (run) => {
 }
 
 async function remove(terminal: Terminal, files: readonly string[], options: ChangeOptions): Promise<number> {
+  for (const file of files) await refuseUnsent(options, { allowWrites: true }, (client) => client.files.remove(file))
   await confirmChange(terminal, options, `Delete ${files.join(', ')}.`)
   const password = await filePasswordOf(terminal, options)
   return withClient(terminal, options, { allowWrites: true }, async (client) => {

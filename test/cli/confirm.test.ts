@@ -146,6 +146,45 @@ describe('control with --verify', () => {
   })
 })
 
+describe('control of what the profile lacks', () => {
+  const nobody = ['--plc', '127.0.0.1:1', '--timeout', '500']
+
+  test.each([
+    ['fx3', 'pause'],
+    ['fx3', 'clear-error'],
+    ['fx5-enet', 'clear-error'],
+    ['iq-f', 'run', '--clear', 'all'],
+    ['generic', 'stop', '--verify'],
+  ])('%s: %s %s %s is refused before anything is connected or asked', async (profile, ...args) => {
+    const ended = await runHere(['control', ...args, ...nobody, '--profile', profile], 'y')
+    expect([ended.code, ended.questions, ended.out]).toEqual([2, [], ''])
+  })
+
+  test.each([
+    [['XFF'], 2],
+    [['X8', 'label:Speed'], 2],
+    [['D0'], 4],
+    [['X8', 'D0'], 4],
+  ])('read %j of an iQ-F that cannot be reached: exit code %d', async (items, code) => {
+    const ended = await runHere(['read', ...items, ...nobody, '--profile', 'iq-f'])
+    expect([ended.code, ended.out]).toEqual([code, ''])
+  })
+
+  test('what it has is asked and tried', async () => {
+    const ended = await runHere(['control', 'stop', ...nobody, '--profile', 'fx3'], 'y')
+    expect([ended.code, ended.questions.length]).toEqual([4, 1])
+  })
+
+  test.each([
+    ['memory', 'read', '0', '1'],
+    ['memory', 'write', '0', '1'],
+    ['module', 'read', '0', '1', '--model', 'Q62DA', '--start-io', '0030'],
+  ])('%s %s of an iQ-F, too', async (...args) => {
+    const ended = await runHere([...args, ...nobody, '--profile', 'iq-f'], 'y')
+    expect([ended.code, ended.questions, ended.out]).toEqual([2, [], ''])
+  })
+})
+
 describe('control of the module', () => {
   test('clear error asks, self test does not', async () => {
     const cleared = await asked('n', 'control', 'clear-error')
@@ -158,7 +197,7 @@ describe('control of the module', () => {
 })
 
 describe('identify', () => {
-  test('by a port without the command connects, and says that nobody was asked', async () => {
+  test('by a port without the command connects, and says that nobody was asked: exit code 2', async () => {
     const builtIn = createPlcSimulator({ profile: 'q-built-in' })
     await builtIn.listen()
     try {
@@ -166,7 +205,7 @@ describe('identify', () => {
         ['identify', '--plc', `127.0.0.1:${builtIn.tcp?.port}`, '--profile', 'q-built-in'],
         'n',
       )
-      expect(code).toBe(0)
+      expect(code).toBe(2)
       expect(out).toMatch(/Model +not told/)
       expect(err).toContain('The PLC answers, so the connection works.')
       expect(err).toContain('Built-in Ethernet ports do not have it')

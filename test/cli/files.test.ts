@@ -150,3 +150,36 @@ test('the password of a file comes from the environment or the keyboard, and is 
     await q.close()
   }
 })
+
+describe('what the profile lacks is said before anything is connected or asked', () => {
+  const nobody = '--plc=127.0.0.1:1'
+
+  test.each([
+    ['ls', '4:/'],
+    ['get', '4:/LINE.CSV', 'LINE.CSV'],
+    ['put', 'NEW.BIN', '4:/NEW.BIN'],
+    ['cp', '4:/A.CSV', '4:/B.CSV'],
+    ['rm', '4:/A.CSV'],
+  ])('%s with a PLC without files', async (name, ...args) => {
+    writeFileSync(local('NEW.BIN'), content)
+    const paths = args.map((path) => (path.includes(':') ? path : local(path)))
+    const ended = await runHere([name, ...paths, nobody, '--profile', 'iq-f'], 'y')
+    expect(ended).toMatchObject({ code: 2, questions: [], out: '', err: expect.stringMatching(/MELSEC iQ-F/) })
+    expect(existsSync(local('LINE.CSV'))).toBe(false)
+  })
+
+  test('and so is a path that is none, or a drive that the PLC has not', async () => {
+    for (const args of [
+      ['ls', 'ARCHIVE'],
+      ['get', '9:/A.CSV', local('A')],
+      ['rm', '4:/A.CSV', 'B.CSV'],
+    ]) {
+      expect(await runHere([...args, nobody, '--profile', 'iq-r'], 'y')).toMatchObject({ code: 2, questions: [] })
+    }
+  })
+
+  test('what it has is asked and tried', async () => {
+    const ended = await runHere(['rm', '4:/A.CSV', nobody, '--profile', 'iq-r', '--timeout', '500'], 'y')
+    expect([ended.code, ended.questions.length]).toEqual([4, 1])
+  })
+})
