@@ -50,7 +50,11 @@ export class Connection<Head> {
     this.#owner = {
       counters: this.#counters,
       serials: new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000)),
-      fence: new Fence(framing, { ask: proof, patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT) }),
+      fence: new Fence(framing, {
+        ask: proof,
+        patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT),
+        onlyAtFirst: framing.correlation === 'serial',
+      }),
       roundTrips: new RoundTrips(),
       verified: (answered) => this.#verified(answered),
       proved: () => {

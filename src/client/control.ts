@@ -225,7 +225,7 @@ export function proofs<Head>(protocol: Pick<ClientProtocol<Head>, 'exchange'>, r
       decode(frame)
       return true
     }
-    return { head, body, responseLength, isEcho }
+    return { head, body, responseLength, pattern: Buffer.from(pattern), isEcho }
   }
 }
 

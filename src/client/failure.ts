@@ -173,11 +173,15 @@ export function silent(
   return new ConnectionError('SILENT', message, 'unknown', cause, causes)
 }
 
+/** Behind a proof that did not come; the other causes of a silence follow. */
+export const NO_SELF_TEST =
+  'The device does not return self tests (0619), which a fixed local port needs: leave localPort out, or use the 4E frame or TCP.'
+
 /** On a fixed local port of a frame without serial number: after an unanswered request a self test must come back first. */
 export function unproved(title: string, peer: string, causes: readonly string[]): TimeoutError {
   const message =
     `${title} was not sent: ${peer} did not return the self test that proves that no late answer to an earlier request is still on its way ` +
-    '(the local port is fixed, and the frame has no serial number). Without localPort, with the 4E frame or over TCP it is not needed.' +
+    '(the local port is fixed, and the frame has no serial number).' +
     mostLikely(causes)
   return new TimeoutError(message, 'notSent', causes)
 }

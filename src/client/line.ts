@@ -128,10 +128,9 @@ export class Line<Head> {
     this.flush()
   }
 
-  /** Where a late answer can come to the port of the next request, and no number tells them apart. */
+  /** Where a late answer can come to the port of the next request, also one of the program before. */
   #fenceFor({ kind, renewable }: Transport): Fence<Head> | undefined {
-    const toldApart = kind === 'stream' || renewable || this.#options.framing.correlation === 'serial'
-    return toldApart ? undefined : this.#owner.fence
+    return kind === 'stream' || renewable ? undefined : this.#owner.fence
   }
 
   /** A first request was answered. */
@@ -332,7 +331,7 @@ export class Line<Head> {
   /** What must come back before a request on a fixed port did not: the request was not sent. */
   #unproved(job: Call<Head>): void {
     if (!this.#opening.owns(job)) this.#owner.counters.add('timeouts')
-    const causes = this.#causes()
+    const causes = [failure.NO_SELF_TEST, ...this.#causes()]
     this.#silence(job, causes, failure.unproved(job.exchange.title, this.peer, causes))
   }
 

@@ -9,6 +9,8 @@ export interface Echo<Head> {
   readonly head: Head
   readonly body: Uint8Array
   readonly responseLength: BodyLength<Head>
+  /** Bytes that its answer holds, and hardly another one. */
+  readonly pattern: Buffer
   /** Whether the frame answers exactly this question. */
   isEcho(frame: ResponseFrame<Head>): boolean
 }
@@ -18,17 +20,26 @@ export interface FenceOptions<Head> {
   readonly ask: () => Echo<Head>
   /** ms after which it is asked once more, because datagrams get lost; doubled each time, because a PLC may be slow. */
   readonly patience: number
+  /**
+   * The frames have serial numbers: only at the beginning of a session an answer of an earlier program, which may have
+   * used the same numbers, can be taken for another one. A PLC that returns no self test is used without it.
+   */
+  readonly onlyAtFirst?: boolean
 }
 
 /** Copies of an echo may come later; so many questions are known. */
 const REMEMBERED = 8
+/** Questions answered with something else after which a PLC counts as one that returns no self tests. */
+const ENOUGH = 2
 
 /** It outlives a session: an answer to a request of an earlier one can still come to the same port. */
 export class Fence<Head> {
   readonly #framing: Framing<Head>
   readonly #options: FenceOptions<Head>
-  /** Since the last request, the latest last. Any of them proves it, because all were asked behind that request. */
+  /** Since the last request, the latest last. Only that one proves it: the others may still be refused, one after another. */
   #asked: Echo<Head>[] = []
+  /** Answers to something else since then. */
+  #strays = 0
   /** Whose answers prove nothing any more. */
   #former: Echo<Head>[] = []
   #askAgainAt = Number.NEGATIVE_INFINITY
@@ -43,7 +54,7 @@ export class Fence<Head> {
     this.#options = options
   }
 
-  /** When the question is asked again, or what may leave without it does; `undefined` when nothing was asked. */
+  /** When the question is asked again; `undefined` when nothing was asked. */
   get due(): number | undefined {
     return this.#asked.length === 0 ? undefined : this.#askAgainAt
   }
@@ -57,6 +68,7 @@ export class Fence<Head> {
 
   /** A request leaves: from now on its answer may be on its way, and later a second copy of it. */
   sent(): void {
+    if (this.#options.onlyAtFirst === true) return
     this.#fall()
     this.#owed = true
   }
@@ -67,13 +79,15 @@ export class Fence<Head> {
   }
 
   /**
-   * Whether the next request may leave. A PLC that returned no self test at all is used without, but only as long as it
-   * has answered everything.
+   * Whether the next request may leave. A PLC that answers self tests with something else, as one does that has none, is
+   * used without, but only as long as it has answered everything; these questions, too.
    */
   allows(now: number): boolean {
+    const { onlyAtFirst = false } = this.#options
+    if (onlyAtFirst && this.#asked.length > 0 && now >= this.#askAgainAt) this.#stand()
     if (this.#stands) return true
     if (this.#owed || this.#echoes === true) return false
-    if (this.#asked.length > 0 && now >= this.#askAgainAt) this.#echoes = false
+    if (this.#asked.length >= ENOUGH && this.#strays >= this.#asked.length) this.#echoes = false
     return this.#echoes === false
   }
 
@@ -93,28 +107,36 @@ export class Fence<Head> {
    * answer to the request in flight.
    */
   look(datagram: Buffer): 'echo' | 'stray' | undefined {
-    if (this.#asked.some((echo) => this.#isEcho(echo, datagram))) {
-      this.#fall()
-      this.#stands = true
-      this.#owed = false
-      this.#echoes = true
+    const answered = [...this.#former, ...this.#asked].find((echo) => this.#isEcho(echo, datagram))
+    if (answered !== undefined) this.#echoes = true
+    if (answered !== undefined && answered === this.#asked.at(-1)) {
+      this.#stand()
       return 'echo'
     }
-    if (this.#asked.length > 0) return 'stray'
-    if (!this.#former.some((echo) => this.#isEcho(echo, datagram))) return undefined
-    // Later than was waited for: it does return them.
-    this.#echoes = true
+    if (this.#asked.length === 0) return answered && 'stray'
+    this.#strays += 1
+    // Answered, but not with its pattern: whether that is so for each question can be seen at once.
+    const seemsToHaveNone = this.#echoes === undefined && this.#strays === this.#asked.length
+    if (seemsToHaveNone && this.#asked.length < ENOUGH) this.#askAgainAt = Number.NEGATIVE_INFINITY
     return 'stray'
+  }
+
+  #stand(): void {
+    this.#fall()
+    this.#stands = true
+    this.#owed = false
   }
 
   #fall(): void {
     this.#stands = false
     this.#former = [...this.#former, ...this.#asked].slice(-2 * REMEMBERED)
     this.#asked = []
+    this.#strays = 0
     this.#askAgainAt = Number.NEGATIVE_INFINITY
   }
 
   #isEcho(echo: Echo<Head>, datagram: Buffer): boolean {
+    if (!datagram.includes(echo.pattern)) return false
     try {
       const scanned = this.#framing.response.scan(datagram, (head, soFar) => echo.responseLength(head, soFar))
       if (scanned === undefined || scanned.used !== datagram.length) return false

@@ -240,7 +240,6 @@ test.each<[string, Answer0619]>([
     (bytes) => answer3e(bytes, 0xc059, Buffer.concat([bytes.subarray(2, 7), bytes.subarray(11, 15)])),
   ],
   ['answers it with something else', (bytes) => answer3e(bytes, 0, word(7))],
-  ['does not answer it', () => undefined],
 ])('a PLC that %s is used from a fixed port until it leaves a request unanswered', async (_what, selfTest) => {
   let late = (): void => {}
   const { port, asked } = await plainPlc((bytes, reply) => {
@@ -270,21 +269,47 @@ test.each<[string, Answer0619]>([
   const error = await failureOf(client.read('D200'))
   expect(error).toMatchObject({ outcome: 'notSent' })
   expect(error.message).toContain('did not return the self test')
-  expect(error.message).toContain('Without localPort')
+  expect(error.message).toContain('leave localPort out')
   late()
   for (let round = 0; round < 5; round++) expect(await told(client.read('D200'))).toContain('notSent')
   expect(asked).not.toContain(200)
 })
 
-test('a self test that comes back later than it was waited for shows that the PLC returns them', async () => {
-  const echoes: (() => void)[] = []
-  let slow = true
+test('a PLC that does not answer self tests is not believed on a fixed port: nothing is sent, and the error says what helps', async () => {
+  const { port, asked } = await plainPlc((bytes, reply) => {
+    const command = bytes.readUInt16LE(11)
+    if (command !== 0x0619) reply(command === 0x0101 ? typeName3e(bytes) : answer3e(bytes, 0, word(1)))
+  })
+  const options = { host: '127.0.0.1', port, transport: 'udp', profile: 'q', timeout: 80 } as const
+  const fixed = createMelsecClient({ ...options, frame: '3E', localPort: await freePort() })
+  cleanups.push(() => fixed.close())
+  const error = await failureOf(fixed.read('D1', { timeout: 1000 }))
+  expect(error.outcome).toBe('notSent')
+  expect(error.message).toContain('leave localPort out')
+  expect(asked).toEqual([])
+  const free = createMelsecClient({ ...options, frame: '3E' })
+  cleanups.push(() => free.close())
+  expect(await free.read('D1')).toBe(1)
+})
+
+test('a self test that was asked twice proves nothing before the second one is back: the PLC may refuse that', async () => {
+  const held: (() => void)[] = []
+  let hold = false
+  const refusal = (bytes: Buffer) =>
+    answer3e(bytes, 0x0055, Buffer.concat([bytes.subarray(2, 7), bytes.subarray(11, 15)]))
   const { port, asked } = await plainPlc((bytes, reply) => {
     const command = bytes.readUInt16LE(11)
     if (command === 0x0101) return reply(typeName3e(bytes))
     if (command === 0x0401) return reply(answer3e(bytes, 0, word(bytes.readUIntLE(15, 3))))
-    const echo = () => reply(answer3e(bytes, 0, bytes.subarray(15)))
-    return slow ? void echoes.push(echo) : echo()
+    const number = held.length
+    const answer = number === 1 ? refusal(bytes) : answer3e(bytes, 0, bytes.subarray(15))
+    if (!hold) return reply(answer)
+    held.push(() => reply(answer))
+    // In order: the echo of the first, the refusal of the second, and from then on as it should be.
+    if (held.length === 2) {
+      hold = false
+      for (const one of held) one()
+    }
   })
   const client = createMelsecClient({
     host: '127.0.0.1',
@@ -297,15 +322,45 @@ test('a self test that comes back later than it was waited for shows that the PL
   })
   cleanups.push(() => client.close())
   await client.connect()
-  expect(await client.read('D1')).toBe(1)
-  for (const echo of echoes.splice(0)) echo()
-  await until(() => client.statistics.stale > 0)
-  // From now on nothing is sent without it.
-  const read = told(client.read('D2'))
-  expect(await read).toBe('TIMEOUT notSent')
-  expect(asked).toEqual([1])
-  slow = false
-  expect(await client.read('D3', { timeout: 5000 })).toBe(3)
+  hold = true
+  expect(await client.read('D7', { timeout: 5000 })).toBe(7)
+  expect(asked).toEqual([7])
+})
+
+test('4E on a fixed port: an answer to the program before is not taken for one with the same number', async () => {
+  const socket = await bound()
+  cleanups.push(() => new Promise<void>((resolve) => socket.close(() => resolve())))
+  const late: (() => void)[] = []
+  socket.on('message', (bytes, from) => {
+    const command = bytes.readUInt16LE(15)
+    const number = bytes.length >= 22 ? bytes.readUIntLE(19, 3) : 0
+    const data =
+      command === 0x0101 ? typeName3e(bytes).subarray(11) : command === 0x0619 ? bytes.subarray(19) : word(number)
+    const frame = Buffer.concat([Buffer.of(0xd4, 0), bytes.subarray(2, 11), word(2 + data.length), word(0), data])
+    const send = () => socket.send(frame, from.port, from.address)
+    if (number === 100) return void late.push(send)
+    // In order: what is late comes before all that was asked behind it.
+    for (const one of late.splice(0)) one()
+    send()
+  })
+  const options = {
+    host: '127.0.0.1',
+    port: socket.address().port,
+    transport: 'udp',
+    frame: '4E',
+    profile: 'q',
+    localPort: await freePort(),
+    timeout: 100,
+    // Both programs begin with the same number.
+    random: () => 0.5,
+  } as const
+  const before = createMelsecClient(options)
+  expect(await told(before.read('D100'))).toBe('TIMEOUT unknown')
+  await before.close()
+  const after = createMelsecClient({ ...options, timeout: 2000 })
+  cleanups.push(() => after.close())
+  expect(await after.read('D200')).toBe(200)
+  expect(after.statistics.stale).toBeGreaterThan(0)
 })
 
 type Answer0619 = (request: Buffer) => Buffer | undefined
