@@ -225,7 +225,10 @@ export function proofs<Head>(protocol: Pick<ClientProtocol<Head>, 'exchange'>, r
       decode(frame)
       return true
     }
-    return { head, body, responseLength, pattern: Buffer.from(pattern), isEcho }
+    // As characters, or in ASCII code of 1E frames as two digits for each.
+    const forms = [Buffer.from(pattern), Buffer.from(Buffer.from(pattern).toString('hex'))]
+    const mayBe = (datagram: Buffer) => forms.some((form) => datagram.includes(form))
+    return { head, body, responseLength, mayBe, isEcho }
   }
 }
 

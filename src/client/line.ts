@@ -78,7 +78,8 @@ export class Line<Head> {
   }
 
   get queued(): number {
-    return this.#session?.queued ?? 0
+    // While the connection is opened nothing waits on it but its own requests.
+    return this.#opening.isGoingOn ? 0 : (this.#session?.queued ?? 0)
   }
 
   get inFlight(): number {

@@ -50,6 +50,11 @@ export class Opening<Head> {
     return this.#call === undefined || this.#unlocking ? undefined : this.#probe?.probe.name
   }
 
+  /** Whether one of its calls is not answered yet. */
+  get isGoingOn(): boolean {
+    return this.#call !== undefined
+  }
+
   /** Whether the call is the opening's own. */
   owns(call: Call<Head>): boolean {
     return call === this.#call

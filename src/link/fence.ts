@@ -9,8 +9,8 @@ export interface Echo<Head> {
   readonly head: Head
   readonly body: Uint8Array
   readonly responseLength: BodyLength<Head>
-  /** Bytes that its answer holds, and hardly another one. */
-  readonly pattern: Buffer
+  /** A quick look: `false` when the bytes cannot be its answer. */
+  mayBe(datagram: Buffer): boolean
   /** Whether the frame answers exactly this question. */
   isEcho(frame: ResponseFrame<Head>): boolean
 }
@@ -136,7 +136,7 @@ export class Fence<Head> {
   }
 
   #isEcho(echo: Echo<Head>, datagram: Buffer): boolean {
-    if (!datagram.includes(echo.pattern)) return false
+    if (!echo.mayBe(datagram)) return false
     try {
       const scanned = this.#framing.response.scan(datagram, (head, soFar) => echo.responseLength(head, soFar))
       if (scanned === undefined || scanned.used !== datagram.length) return false
