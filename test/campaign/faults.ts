@@ -149,14 +149,14 @@ export const faults: readonly Fault[] = [
   fault('cut and closed', tcp, (random) => {
     const part = random.next()
     return (turn) => {
-      turn.send(cut(turn.carryOut(), part)[0])
+      turn.sendCut(cut(turn.carryOut(), part))
       turn.peer.end()
     }
   }),
   fault('cut and reset', tcp, (random) => {
     const part = random.next()
     return (turn) => {
-      turn.send(cut(turn.carryOut(), part)[0])
+      turn.sendCut(cut(turn.carryOut(), part))
       turn.peer.reset()
     }
   }),

@@ -74,6 +74,8 @@ const BEFORE = 300
 
 export class Lane implements Stage {
   readonly random = new Random()
+  /** Of the clients: a start of a program does not begin where another one began. */
+  readonly #clientRandom = new Random()
   readonly plc: Plc
   readonly tally: Tally = { exchanges: 0, outcomes: new Map(), faults: new Map(), callers: new Map() }
   readonly #options: LaneOptions
@@ -113,6 +115,7 @@ export class Lane implements Stage {
 
   async run(): Promise<Tally> {
     const { configuration, seed, exchanges, gate } = this.#options
+    this.#clientRandom.restart(seed, 0)
     if (configuration.fixedPort) this.#localPort = await freePort(configuration.transport)
     await this.plc.listen()
     this.#client = this.#makeClient()
@@ -218,7 +221,8 @@ export class Lane implements Stage {
   #makeClient(): Client {
     const { configuration, double } = this.#options
     const options: MelsecClientOptions = {
-      ...clientOptions(configuration, () => 0.5),
+      // Numbers and patterns begin anew with each client, as they do with each start of a program.
+      ...clientOptions(configuration, () => this.#clientRandom.next() / 2 ** 32),
       port: this.plc.port,
       ...(this.#localPort === undefined ? {} : { localPort: this.#localPort }),
     }
