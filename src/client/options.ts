@@ -212,8 +212,7 @@ export function settle(options: MelsecClientOptions): Settings {
     gap: whole('gap', options.gap ?? 64, 0, 960),
     format: options.format ?? {},
     labelFormat: labelFormatOf(options),
-    first: whole('reconnect.first', options.reconnect?.first ?? 500, 1, LONGEST),
-    longest: whole('reconnect.longest', options.reconnect?.longest ?? 30_000, 1, LONGEST),
+    ...pausesOf(options.reconnect ?? {}),
     settleGap: whole('settleGap', options.settleGap ?? 50, 0, LONGEST),
     clock: options.clock ?? realClock,
     random: options.random ?? Math.random,
@@ -330,6 +329,18 @@ function reachable({ title, reach }: Profile, route: Route): Route {
   if (reach.stations === 'networks' || (own && moduleTaken)) return route
   const message = `${title} reaches the connected station only: leave route out (${reach.source}).`
   throw new RequestError('UNSUPPORTED', message, 'route')
+}
+
+/** Pauses between attempts to connect: the first one, doubled up to the longest. */
+function pausesOf({
+  first,
+  longest,
+}: NonNullable<MelsecClientOptions['reconnect']>): Pick<Settings, 'first' | 'longest'> {
+  const most = whole('reconnect.longest', longest ?? Math.max(30_000, first ?? 0), 1, LONGEST)
+  const least = whole('reconnect.first', first ?? Math.min(500, most), 1, LONGEST)
+  if (least <= most) return { first: least, longest: most }
+  const message = `reconnect.first is ${least} ms and reconnect.longest ${most} ms: the first pause cannot be longer than the longest.`
+  throw new RequestError('BAD_OPTION', message, 'reconnect.first')
 }
 
 /**

@@ -76,7 +76,7 @@ describe.each(TRANSPORTS)('the simulated PLC over %s', (transport) => {
     withLine(line, { plc: { frames: ['4E', '3E'] }, client: { timeout: 100 } }, async ({ client }) => {
       const cause =
         'The PLC does not know the station extension frame: try 4E (only an RJ71GN11-T2 knows and relays it).'
-      expect(await failureOf(client.read('D0'))).toMatchObject({ causes: expect.arrayContaining([cause]) })
+      expect(await failureOf(client.connect())).toMatchObject({ causes: expect.arrayContaining([cause]) })
     }))
 })
 

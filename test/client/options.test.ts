@@ -185,6 +185,12 @@ describe('refused', () => {
     ['a gap longer than a request', { gap: 961 }, 'gap', 'from 0 to 960'],
     ['another word order', { format: { wordOrder: 'big' } }, 'wordOrder', ''],
     ['no first pause', { reconnect: { first: 0 } }, 'reconnect.first', 'from 1 to'],
+    [
+      'a first pause over the longest',
+      { reconnect: { first: 900, longest: 800 } },
+      'reconnect.first',
+      'cannot be longer',
+    ],
     ['a longest pause that is no number', { reconnect: { longest: Number.NaN } }, 'reconnect.longest', 'is NaN'],
     ['a negative settle gap', { settleGap: -1 }, 'settleGap', 'from 0 to'],
   ]
