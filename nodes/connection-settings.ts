@@ -42,6 +42,10 @@ export interface ConnectionSettings {
   readonly timeout: string
   readonly probe: string
   readonly inFlight: string
+  readonly queueLimit: string
+  /** ms: pauses between attempts to connect. */
+  readonly reconnectFirst: string
+  readonly reconnectLongest: string
   /** Words. */
   readonly gap: string
   /** Characters of STRING, one of `encodings`. */
@@ -74,11 +78,17 @@ const TEXT_FIELDS = [
   'timeout',
   'probe',
   'inFlight',
+  'queueLimit',
+  'reconnectFirst',
+  'reconnectLongest',
   'gap',
   'encoding',
   'wordOrder',
 ] as const satisfies readonly (keyof ConnectionSettings)[]
 type TextField = (typeof TEXT_FIELDS)[number]
+
+/** ms: a line that runs again should not wait half a minute for its values, and one attempt in five seconds costs a PLC nothing. */
+export const LONGEST_PAUSE = 5000
 
 /** Longer than any host name or number: what is longer is no setting. */
 const LONGEST = 255
@@ -158,11 +168,13 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       timeout: number('timeout'),
       probe: choice(settings, 'probe', ['auto', 'typeName', 'read', 'none'], texts),
       inFlight: number('inFlight'),
+      queueLimit: number('queueLimit'),
       gap: number('gap'),
     }),
     profile: profileOf(settings, texts),
     route: routeOf(settings, texts),
     format: formatOf(settings, texts),
+    reconnect: reconnectOf(settings, texts),
     allowWrites: settings.allowWrites,
     allowControl: settings.allowControl,
   }
@@ -181,6 +193,16 @@ function routeOf(settings: ConnectionSettings, texts: Texts): Partial<Route> {
     multidrop: wholeNumber(settings, 'multidrop', texts),
     extensionStation: wholeNumber(settings, 'extensionStation', texts),
   })
+}
+
+function reconnectOf(
+  settings: ConnectionSettings,
+  texts: Texts,
+): { readonly first?: number; readonly longest: number } {
+  return {
+    ...present({ first: wholeNumber(settings, 'reconnectFirst', texts) }),
+    longest: wholeNumber(settings, 'reconnectLongest', texts) ?? LONGEST_PAUSE,
+  }
 }
 
 function formatOf(settings: ConnectionSettings, texts: Texts): ValueFormat {

@@ -14,14 +14,17 @@ import {
   type MelsecClient,
   type MelsecClientOptions,
   type PlcError,
+  ProtocolError,
   RequestError,
   TimeoutError,
 } from '../src/index'
-import { endpoint, objectIn } from './admin'
+import { endpoint, objectIn, type Reply } from './admin'
 import type { Connection } from './connection'
+import { type AnsweringLine, answeringLines } from './connection-find'
 import { optionsOf, resolverOf, settingsOf } from './connection-settings'
 import { detailsOf, type FailureCode, type FailureDetails } from './failure'
 import type { StoredSettings } from './migration'
+import { isBadAnswer } from './status'
 import type { Texts } from './texts'
 
 /** ms: how long connecting may take; a PLC that is off answers nothing at all. */
@@ -29,6 +32,9 @@ const CONNECT = 8_000
 /** ms for each question. */
 const QUESTION = 3_000
 const ROUNDS = 10
+
+/** The port is there, and another way to speak to it may be answered. */
+const MAY_FIND: readonly FailureCode[] = ['SILENT', 'TIMEOUT', 'DISCONNECTED', 'ENTRY_BUSY', 'OFFLINE']
 
 /** How a PLC turns away one connection more than it has entries for. */
 const TURNED_AWAY: readonly FailureCode[] = ['ENTRY_BUSY', 'CONNECT_FAILED', 'DISCONNECTED']
@@ -41,19 +47,31 @@ export interface TestResult extends Partial<Identity> {
   readonly unidentified?: string
 }
 
-export type TestFailure = FailureDetails & { readonly ok: false; readonly causes: readonly string[] }
+export interface TestFailure extends FailureDetails {
+  readonly ok: false
+  readonly causes: readonly string[]
+  /** Something is there, so it may be worth to try other frames and data codes. */
+  readonly mayFind: boolean
+}
 
 export function connectionTest(RED: NodeAPI, texts: Texts, deployed: (id: string) => Connection | undefined): void {
   let busy = false
-  endpoint(RED, '/melsec-jw/connection/test', 'melsec-jw.write', texts, async (body, over) => {
+  endpoint(RED, '/melsec-jw/connection/test', 'melsec-jw.write', texts, (body, over) =>
+    alone(() => outcome(RED, texts, body, over, deployed)),
+  )
+  endpoint(RED, '/melsec-jw/connection/find', 'melsec-jw.write', texts, (body, over) =>
+    alone(() => found(RED, texts, body, over)),
+  )
+
+  async function alone(work: () => Promise<object>): Promise<Reply> {
     if (busy) return { status: 409, body: { message: texts('error.testBusy') } }
     busy = true
     try {
-      return { status: 200, body: await outcome(RED, texts, body, over, deployed) }
+      return { status: 200, body: await work() }
     } finally {
       busy = false
     }
-  })
+  }
 }
 
 async function outcome(
@@ -66,9 +84,11 @@ async function outcome(
   const id = typeof body.id === 'string' ? body.id : ''
   const connection = deployed(id)
   let peer = ''
+  let port = 0
   try {
     const options = optionsIn(RED, id, objectIn(body, 'settings'), texts)
     peer = `${options.transport ?? 'tcp'} ${options.host}:${options.port}`
+    port = options.port
     const running = connected(connection, options)
     if (running !== undefined) return await ask(running, over)
     const client = createMelsecClient({ ...options, connectTimeout: CONNECT })
@@ -80,11 +100,52 @@ async function outcome(
   } catch (error) {
     const details = detailsOf(error, texts)
     const { code, causes = [] } = details
+    const strange = isBadAnswer(code) || badAnswerBehind(error)
+    const further =
+      strange && causes.length === 0 ? [texts('test.otherService', { port }), texts('test.otherLine')] : causes
     const ours = connection?.current?.state.name === 'connected' && TURNED_AWAY.includes(code)
-    // With its causes the message of a silence is long, and they are listed below it.
-    const silent = code === 'SILENT' && causes.length > 0
-    const message = silent ? texts('test.silent', { peer }) : details.message
-    return { ok: false, ...details, message, causes: ours ? [texts('error.entryHeld'), ...causes] : causes }
+    const message = withoutCauses(details, peer, texts)
+    return {
+      ok: false,
+      ...details,
+      message,
+      causes: ours ? [texts('error.entryHeld'), ...further] : further,
+      mayFind: MAY_FIND.includes(code) || strange,
+    }
+  }
+}
+
+/** With its causes a message is long, and they are listed below it. */
+function withoutCauses({ code, message, causes = [] }: FailureDetails, peer: string, texts: Texts): string {
+  if (code === 'SILENT' && causes.length > 0) return texts('test.silent', { peer })
+  const at = message.search(/ (?:Likely|Most likely|Possible causes): /)
+  return causes.length > 0 && at > 0 ? message.slice(0, at) : message
+}
+
+/** A connection that ended because of what came over it. */
+function badAnswerBehind(error: unknown): boolean {
+  for (let cause = error, depth = 0; cause instanceof Error && depth < 5; cause = cause.cause, depth++) {
+    if (cause instanceof ProtocolError) return true
+  }
+  return false
+}
+
+/** `POST /melsec-jw/connection/find`: which frames and data codes the PLC answers to. */
+async function found(
+  RED: NodeAPI,
+  texts: Texts,
+  body: StoredSettings,
+  over: AbortSignal,
+): Promise<
+  { readonly ok: true; readonly lines: readonly AnsweringLine[] } | { readonly ok: false; readonly message: string }
+> {
+  try {
+    const options = optionsIn(RED, typeof body.id === 'string' ? body.id : '', objectIn(body, 'settings'), texts)
+    const lines = await answeringLines(options, over)
+    const peer = `${options.transport ?? 'tcp'} ${options.host}:${options.port}`
+    return lines.length > 0 ? { ok: true, lines } : { ok: false, message: texts('test.foundNone', { peer }) }
+  } catch (error) {
+    return { ok: false, message: detailsOf(error, texts).message }
   }
 }
 
@@ -101,7 +162,16 @@ function connected(connection: Connection | undefined, options: MelsecClientOpti
 }
 
 /** What the PLC sees of a client's options. The dialog does not give the password away, so it is not compared. */
-function wire({ allowWrites, allowControl, gap, format, password, ...seen }: MelsecClientOptions): string {
+function wire({
+  allowWrites,
+  allowControl,
+  gap,
+  format,
+  password,
+  reconnect,
+  queueLimit,
+  ...seen
+}: MelsecClientOptions): string {
   return JSON.stringify(seen)
 }
 

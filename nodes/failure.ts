@@ -15,6 +15,9 @@ import {
 } from '../src/index'
 import { languageOf, type Texts } from './texts'
 
+/** The port is locked by a remote password. */
+const PORT_LOCKED = 0xc201
+
 /** Failures that only nodes know. */
 export type NodeErrorCode =
   | 'NOT_CONFIGURED' // settings of the node or its connection
@@ -109,6 +112,7 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
       endCode,
       ...(abnormalCode === undefined ? {} : { abnormalCode }),
       ...present({ message: refusedText(error, explained, texts), ...explained, command, station }),
+      ...(endCode === PORT_LOCKED ? { causes: [texts('error.portLocked')] } : {}),
     }
   }
   if (error instanceof RequestError) return present({ field: error.field })
@@ -131,11 +135,16 @@ interface Explanation {
 function explanationOf(error: EndCodeError, language: Language): Explanation {
   const { endCode, abnormalCode, command } = error
   if (error.meaning === undefined) return {}
-  const named = Object.values(commands).find(({ title }) => title === command)?.name
+  const named = nameOf(command)
   const refused = explainEndCode(endCode, { language, ...(named === undefined ? {} : { command: named }) })
   const reason = abnormalCode === undefined ? undefined : explainEndCode(abnormalCode, { language })
   const meaning = [refused?.meaning, refused?.cause, reason?.meaning].filter((part) => part !== undefined).join(' ')
   return present({ meaning, remedy: reason?.remedy ?? refused?.remedy })
+}
+
+/** The command that an error names by its title. */
+function nameOf(title: string | undefined): keyof typeof commands | undefined {
+  return Object.values(commands).find((command) => command.title === title)?.name
 }
 
 /** The whole sentence where the runtime does not speak English: the library's own is. */
@@ -144,7 +153,9 @@ function refusedText(error: EndCodeError, { meaning, remedy }: Explanation, text
   if (languageOf(texts) === 'en-US' || meaning === undefined || command === undefined) return error.message
   const digits = abnormalCode === undefined ? [endCode] : [endCode, abnormalCode]
   const code = digits.map((number) => `${hex(number)}H`).join(', ')
-  const text = texts('error.refused', { command, code, meaning, remedy: remedy ?? '' })
+  const named = nameOf(command)
+  const title = named === undefined ? command : texts(`command.${named}`)
+  const text = texts('error.refused', { command: title, code, meaning, remedy: remedy ?? '' })
   const head = headOfError(error)
   return head === undefined ? text : `${head}: ${text}`
 }

@@ -3,7 +3,7 @@ import type { Node, NodeAPI, NodeDef } from 'node-red'
 import { type ProfileId, profileIds, profiles, typeNames } from '../src/index'
 import { addressCheck } from './address-check'
 import { Connection, connectionOf, setConnection } from './connection'
-import { optionsOf, type Resolve, resolverOf, settingsOf } from './connection-settings'
+import { LONGEST_PAUSE, optionsOf, type Resolve, resolverOf, settingsOf } from './connection-settings'
 import { connectionTest } from './connection-test'
 import type { Migration } from './migration'
 import { readSettings } from './node'
@@ -40,6 +40,7 @@ const editorSettings = {
     value: Object.fromEntries(profileIds.map((id) => [id, factsOf(id)])),
     exportable: true,
   },
+  melsecJwConnectionLongestPause: { value: LONGEST_PAUSE, exportable: true },
 }
 
 /** What a series makes of settings that are left empty. */

@@ -23,6 +23,8 @@ export interface Answer {
   readonly messages: readonly NodeMessage[]
   /** Items that failed while others were delivered. */
   readonly partly?: { readonly failed: number; readonly all: number }
+  /** Nothing was delivered but that everything failed, for this reason. */
+  readonly nothing?: NodeFailure
   /** Carried out, but whether it has its effect could not be looked at. */
   readonly unverified?: true
 }
@@ -160,7 +162,8 @@ async function handle(
     done(unwanted ? undefined : failure)
     return
   }
-  if (answer.partly !== undefined) display.partly(answer.partly.failed, answer.partly.all)
+  if (answer.nothing !== undefined) display.failed(answer.nothing)
+  else if (answer.partly !== undefined) display.partly(answer.partly.failed, answer.partly.all)
   else if (answer.unverified === true) display.unverified()
   else display.succeeded()
   const [first, ...more] = answer.messages

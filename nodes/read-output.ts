@@ -63,8 +63,13 @@ export function answerOf(
   const errors = errorsOf(readings, tools.texts)
   const all = readings.results.length
   const partly = errors.length === 0 ? {} : { partly: { failed: errors.length, all } }
-  if (settings.quality) return { messages: messagesOf(settings, readings, message, errors, tools), ...partly }
   const first = readings.results.find((result) => !result.ok)
+  if (settings.quality) {
+    // A message full of bad values is no half success: the status says why nothing could be read.
+    const nothing =
+      first !== undefined && !first.ok && errors.length === all ? { nothing: failureOf(first.error, tools.texts) } : {}
+    return { messages: messagesOf(settings, readings, message, errors, tools), ...partly, ...nothing }
+  }
   const sendsRest = settings.partial === 'send' && errors.length < all
   if (first !== undefined && !first.ok && !sendsRest) {
     throw failureOf(first.error, tools.texts, { errors })

@@ -3,7 +3,7 @@ import type { Node, NodeStatus } from 'node-red'
 import type { ConnectionState } from '../src/index'
 import type { ConnectionUser } from './connection'
 import type { FailureCode, NodeFailure } from './failure'
-import { statusKey, type Texts } from './texts'
+import type { Texts } from './texts'
 
 /** Which short text stands for which failure; keys of `status` in the connection's catalogue. */
 const FAILURE_TEXTS = {
@@ -45,17 +45,32 @@ const FAILURE_TEXTS = {
   UNEXPECTED: 'failed',
 } as const satisfies Record<FailureCode, string>
 
-function ofState(state: ConnectionState): NodeStatus {
+/** What a Status node gets: to people in the language of the runtime, to programs as code and state. */
+export interface ShownStatus extends NodeStatus {
+  /** Why the last message failed, or why there is no connection. */
+  readonly code?: FailureCode
+  /** The number the PLC sent. */
+  readonly endCode?: number
+  /** Of the connection, when this was shown. */
+  readonly state?: ConnectionState['name']
+}
+
+/** Whether what was received is no answer of a PLC. */
+export function isBadAnswer(code: FailureCode): boolean {
+  return FAILURE_TEXTS[code] === 'badAnswer'
+}
+
+function ofState(state: ConnectionState, texts: Texts): ShownStatus {
   switch (state.name) {
     case 'connecting':
       // A reconnect keeps showing why there is no connection, until there is one.
       return state.error === undefined
-        ? { fill: 'yellow', shape: 'ring', text: 'node-red:common.status.connecting' }
-        : ofCode(state.error.code)
+        ? { fill: 'yellow', shape: 'ring', text: texts('status.connecting') }
+        : ofCode(state.error.code, texts)
     case 'connected':
-      return { fill: 'green', shape: 'dot', text: 'node-red:common.status.connected' }
+      return { fill: 'green', shape: 'dot', text: texts('status.connected') }
     case 'waiting':
-      return ofCode(state.error.code)
+      return ofCode(state.error.code, texts)
     case 'idle':
     case 'closed':
       return {}
@@ -64,8 +79,8 @@ function ofState(state: ConnectionState): NodeStatus {
   }
 }
 
-function ofCode(code: FailureCode): NodeStatus {
-  return { fill: 'red', shape: 'ring', text: statusKey(FAILURE_TEXTS[code]) }
+function ofCode(code: FailureCode, texts: Texts): ShownStatus {
+  return { fill: 'red', shape: 'ring', text: texts(`status.${FAILURE_TEXTS[code]}`), code }
 }
 
 /** End codes as manuals and GX Works write them: four hexadecimal digits. */
@@ -86,11 +101,11 @@ export class Display implements ConnectionUser {
 
   stateChanged(state: ConnectionState): void {
     this.#state = state
-    this.#show(ofState(state))
+    this.#show(ofState(state, this.texts))
   }
 
   succeeded(): void {
-    if (this.#state !== undefined) this.#show(ofState(this.#state))
+    if (this.#state !== undefined) this.#show(ofState(this.#state, this.texts))
   }
 
   /** A file is under way. */
@@ -105,14 +120,16 @@ export class Display implements ConnectionUser {
 
   /** Carried out, but whether it has its effect could not be looked at. */
   unverified(): void {
-    this.#show({ fill: 'yellow', shape: 'dot', text: statusKey('notVerified') })
+    this.#show({ fill: 'yellow', shape: 'dot', text: this.texts('status.notVerified') })
   }
 
   failed({ code, endCode }: NodeFailure): void {
-    if (code === 'OFFLINE' && this.#state !== undefined) this.#show(ofState(this.#state))
-    else if (endCode === undefined) this.#show(ofCode(code))
-    // The number has to be in it, so it comes in the language of the runtime.
-    else this.#show({ ...ofCode(code), text: this.texts('status.endCode', { code: endCodeText(endCode) }) })
+    if (code === 'OFFLINE' && this.#state !== undefined) this.#show(ofState(this.#state, this.texts))
+    else if (endCode === undefined) this.#show(ofCode(code, this.texts))
+    else {
+      const text = this.texts('status.endCode', { code: endCodeText(endCode) })
+      this.#show({ ...ofCode(code, this.texts), text, endCode })
+    }
   }
 
   /** A successor with the same id may be running already: it is its status now. */
@@ -120,10 +137,12 @@ export class Display implements ConnectionUser {
     this.#closed = true
   }
 
-  #show(status: NodeStatus): void {
-    const text = JSON.stringify(status)
+  #show(shown: ShownStatus): void {
+    // Without the state: attempts to connect that come and go say nothing new.
+    const text = JSON.stringify(shown)
     if (this.#closed || text === this.#shown) return
     this.#shown = text
+    const status: ShownStatus = this.#state === undefined ? shown : { ...shown, state: this.#state.name }
     this.node.status(status)
   }
 }

@@ -1,5 +1,4 @@
-// Texts for people: from locales/, in the language of the runtime, or as keys that the editor translates for each
-// viewer. What several nodes say stands in the connection's catalogue.
+// Texts for people: from locales/, in the language of the runtime. What several nodes say stands in the connection's catalogue.
 import type { NodeAPI } from 'node-red'
 import { type Language, languages } from '../src/index'
 
@@ -11,11 +10,6 @@ export type Texts = (key: string, values?: Readonly<Record<string, string | numb
 
 export function sharedTexts(RED: NodeAPI): Texts {
   return (key, values) => RED._(`${SHARED}:${key}`, { ...values })
-}
-
-/** A key the editor translates in a node's status, for whoever looks at it. */
-export function statusKey(name: string): string {
-  return `${SHARED}:status.${name}`
 }
 
 /** Language of the runtime, as far as this package has texts in it. */

@@ -46,7 +46,10 @@ function fromTheStart(settings: LinkSettings): readonly string[] {
   const elsewhere = `Network ${route.network}, ${stationText(route).toLowerCase()} does not answer: check the route, or leave it at the own station.`
   const routed = !isConnectedStation(route)
   const frameCauses = frames?.includes(OTHER_FRAME[frame]) === false ? [] : [otherFrame]
-  const common = [dataCode, otherPort, ...frameCauses, 'The PLC is busy or the line slow: raise the timeout.']
+  // 3E is known to all, binary is usual: who has neither chosen has a series whose default the PLC does not know (FX5 as iQ-R).
+  const settingsOf =
+    frame === '3E' || code === 'ascii' ? [dataCode, otherPort, ...frameCauses] : [...frameCauses, dataCode, otherPort]
+  const common = [...settingsOf, 'The PLC is busy or the line slow: raise the timeout.']
   const ranked = transport === 'udp' ? [peer, ...common] : common
   return routed ? [elsewhere, ...ranked] : ranked
 }

@@ -1,6 +1,7 @@
 // What an item is, for people and editors: plain data.
 import { type AddressOptions, formatDevice, formatParsedDevice } from '../melsec/address'
 import { type DeviceInfo, type DeviceUnit, deviceInfo, type Radix } from '../melsec/device'
+import type { Profile, ProfileId } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
 import { formatType, wordsOf } from '../value/value'
 import { formatItem, type ParsedItem } from './item'
@@ -27,6 +28,10 @@ export interface DeviceExplanation {
   readonly count?: number
   /** Requests that read it; more than one: an array whose values may be of different moments. */
   readonly requests: number
+  /**
+   * Behind the last device that a CPU of the profile has as delivered. Parameters can give it more, so it is no refusal.
+   */
+  readonly beyond?: { readonly profile: ProfileId; readonly last: string }
   /** What one should know, e.g. that it is read by several requests. */
   readonly notes: readonly string[]
 }
@@ -59,6 +64,7 @@ export function explainItem<Head>(
     type: formatType(item.type),
     ...(item.count === undefined ? {} : { count: item.count }),
     requests: requests.length,
+    ...beyondOf(item, info, protocol.profile, options),
     notes: info.note === undefined ? notes : [...notes, info.note],
   }
 }
@@ -73,20 +79,38 @@ function sizeOf({ type, digits, count = 1 }: ParsedItem): DeviceExplanation['siz
   return type.name === 'BOOL' ? { count, unit: 'bit' } : { count: wordsOf(type) * count, unit: 'word' }
 }
 
-function lastOf(item: ParsedItem, { unit }: DeviceInfo, options: AddressOptions): string {
+/** Only of the CPU's own devices, and where the text says which they are. */
+function beyondOf(
+  item: ParsedItem,
+  info: DeviceInfo,
+  { id, ranges }: Profile,
+  options: AddressOptions,
+): Pick<DeviceExplanation, 'beyond'> {
+  const { address } = item
+  const points = ranges.points[info.name]
+  const plain = address.extension === undefined && address.index === undefined && address.indirect !== true
+  if (points === undefined || !plain || lastNumberOf(item, info) < points) return {}
+  return { beyond: { profile: id, last: formatDevice({ ...address, number: points - 1 }, options) } }
+}
+
+/** Number of the last device. */
+function lastNumberOf(item: ParsedItem, { unit }: DeviceInfo): number {
+  const { address, bit } = item
+  const { count } = sizeOf(item)
+  if (bit !== undefined) return address.number + Math.floor((bit + count - 1) / 16)
+  return address.number + (unit === 'doubleWord' ? (item.count ?? 1) : count) - 1
+}
+
+function lastOf(item: ParsedItem, info: DeviceInfo, options: AddressOptions): string {
   const { address, bit } = item
   const { count } = sizeOf(item)
   if (bit !== undefined) {
-    const last = bit + count - 1
-    return formatParsedDevice(
-      { address: { ...address, number: address.number + Math.floor(last / 16) }, bit: last % 16 },
-      options,
-    )
+    const last = { address: { ...address, number: lastNumberOf(item, info) }, bit: (bit + count - 1) % 16 }
+    return formatParsedDevice(last, options)
   }
   // The words behind an indirect address have no names.
   if (address.indirect === true) return formatDevice(address, options)
-  const devices = unit === 'doubleWord' ? (item.count ?? 1) : count
-  return formatDevice({ ...address, number: address.number + devices - 1 }, options)
+  return formatDevice({ ...address, number: lastNumberOf(item, info) }, options)
 }
 
 function radixOf({ address }: ParsedItem, { name }: DeviceInfo, options: AddressOptions): Radix {

@@ -40,6 +40,11 @@ describe('a PLC that has never answered', () => {
     expect(explain({ route })).toHaveLength(5)
   })
 
+  test('in 4E frames most likely knows 3E only: the series is another one than chosen (an FX5U set as iQ-R)', () => {
+    expect(explain({ frame: '4E', frames: ['3E', '4E'] })[0]).toContain('does not know the 4E frame: try 3E')
+    expect(explain({ frame: '4E', code: 'ascii' })[0]).toContain('set to binary code')
+  })
+
   test('of a family with one frame is not told to try another', () => {
     expect(explain({ frames: ['3E'] }).join('\n')).not.toContain('frame: try')
     expect(explain({ frames: ['3E', '4E'] }).join('\n')).toContain('frame: try 4E')

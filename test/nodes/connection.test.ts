@@ -66,7 +66,7 @@ describe('one connection', () => {
   test('is made in the background and shared by its users', async () => {
     await red.deploy([connectionTo(plc), read(), writeNode(), controlNode()])
     for (const id of ['read', 'write', 'control']) {
-      await red.status(id, { fill: 'green', shape: 'dot', text: 'node-red:common.status.connected' })
+      await red.status(id, { fill: 'green', shape: 'dot', text: 'connected' })
     }
     expect(plc.connections).toHaveLength(1)
     expect(red.log.filter(({ id }) => id !== undefined)).toEqual([])
@@ -200,14 +200,14 @@ describe('a PLC', () => {
   test('whose entries are all taken is shown as such', async () => {
     const fault = plc.faults.add({ kind: 'closeOnAccept' })
     await red.deploy([connectionTo(plc), read()])
-    await red.status('read', { fill: 'red', text: '@melsec-jw/plc/melsec-jw-connection:status.entryBusy' })
+    await red.status('read', { fill: 'red', text: 'PLC port is in use' })
     fault.remove()
     await red.status('read', { fill: 'green' })
   })
 
   test('that is not there does not fill the log', async () => {
     await red.deploy([connectionTo(plc, { port: '1' }), read(), catchNode()])
-    await red.status('read', { fill: 'red', text: '@melsec-jw/plc/melsec-jw-connection:status.notReached' })
+    await red.status('read', { fill: 'red', text: 'not reached' })
     for (let round = 0; round < 5; round++) await caught()
     expect(red.log.filter(({ level }) => level === 'warn')).toHaveLength(1)
     expect(red.log.filter(({ level }) => level === 'error')).toEqual([])
@@ -295,7 +295,7 @@ describe('wrong settings', () => {
     ['a host that is no text', { host: { name: 'plc' } }, 'Host'],
   ])('%s: told by status, log and Catch, and Node-RED lives', async (_what, settings, told) => {
     await red.deploy([connectionTo(plc, settings), read(), catchNode()])
-    await red.status('read', { fill: 'red', text: '@melsec-jw/plc/melsec-jw-connection:status.badSettings' })
+    await red.status('read', { fill: 'red', text: 'bad settings' })
     const error = await caught()
     expect(error.message.toLowerCase()).toContain(told.toLowerCase())
     expect(error.cause).toMatchObject({ outcome: 'notSent' })
@@ -314,7 +314,7 @@ describe('wrong settings', () => {
     ['a version of the future', { version: 99 }],
   ])('of the node, %s: told by status, log and Catch', async (_what, settings) => {
     await red.deploy([connectionTo(plc), read(settings), catchNode()])
-    await red.status('read', { fill: 'red', text: '@melsec-jw/plc/melsec-jw-connection:status.badSettings' })
+    await red.status('read', { fill: 'red', text: 'bad settings' })
     expect(await caught()).toMatchObject({ code: 'NOT_CONFIGURED', cause: { outcome: 'notSent' } })
     expect(red.log).toContainEqual(expect.objectContaining({ level: 'error', id: 'read' }))
   })

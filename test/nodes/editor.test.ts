@@ -119,15 +119,29 @@ describe('in English', () => {
     await category.scrollIntoViewIfNeeded()
     const labels = await category.locator('.red-ui-palette-label').allTextContents()
     expect(labels.map((label) => label.replaceAll(/\s+/g, ' ')).sort()).toEqual([
-      'plc control',
-      'plc file',
-      'plc ondemand',
-      'plc read',
-      'plc request',
-      'plc write',
+      'MELSEC control',
+      'MELSEC file',
+      'MELSEC on-demand',
+      'MELSEC read',
+      'MELSEC request',
+      'MELSEC write',
     ])
     await picture(page, 'palette')
   })
+
+  test.each(['slmp', 'mitsubishi', 'mc protocol', 'fx5', 'melsec', 'MCプロトコル'])(
+    'the palette finds the nodes by the word %s',
+    async (word) => {
+      const search = page.locator('#red-ui-palette-search input')
+      await search.fill(word)
+      await page.locator('.red-ui-palette-node[data-palette-type="inject"]').waitFor({ state: 'hidden' })
+      await expect(page.locator('.red-ui-palette-node[data-palette-type^="melsec-jw-"]:visible').count()).resolves.toBe(
+        6,
+      )
+      await search.fill('')
+      await page.locator('.red-ui-palette-node[data-palette-type="inject"]').waitFor()
+    },
+  )
 
   test('a node without a name is called by its first item', async () => {
     const labels = await page.locator('.red-ui-flow-node-label-text').allTextContents()
@@ -451,6 +465,16 @@ test('in the example flows no node is marked as wrong', async () => {
 }, 60_000)
 
 describe.each(LANGUAGES)('in %s', (language) => {
+  test('the titles of commands are there; the English ones are those of the library', () => {
+    const catalogue = JSON.parse(readText(`nodes/locales/${language}/melsec-jw-connection.json`)) as {
+      command: Record<string, string>
+    }
+    const titles = Object.fromEntries(Object.values(commands).map(({ name, title }) => [name, title]))
+    expect(Object.keys(catalogue.command).sort()).toEqual(Object.keys(titles).sort())
+    if (language === 'en-US') expect(catalogue.command).toEqual(titles)
+    else expect(Object.entries(titles).filter(([name, title]) => catalogue.command[name] === title)).toEqual([])
+  })
+
   test('the titles of devices are there; the English ones are those of the library', () => {
     const catalogue = JSON.parse(readText(`nodes/locales/${language}/melsec-jw-connection.json`)) as {
       language: string

@@ -430,7 +430,7 @@ describe('refused', () => {
   ])('the settings %j', async (settings) => {
     const error = await failing({ file: '4:/LINE.CSV', ...settings }, { payload: 'x' })
     expect(error).toMatchObject({ code: 'NOT_CONFIGURED', cause: { outcome: 'notSent' } })
-    await red.status('file', { fill: 'red', text: '@melsec-jw/plc/melsec-jw-connection:status.badSettings' })
+    await red.status('file', { fill: 'red', text: 'bad settings' })
   })
 
   test('a family without files', async () => {

@@ -154,7 +154,7 @@ describe('settings that cannot work are said at once', () => {
     ['no connection', {}, { connection: 'nowhere' }, 'bad settings'],
   ])('%s', async (_what, connection, settings, text) => {
     await red.deploy([connectionTo(plc, connection), ondemandNode(settings), catchNode()])
-    const key = `@melsec-jw/plc/melsec-jw-connection:status.badSettings`
+    const key = 'bad settings'
     await red.status('ondemand', (status) => status.fill === 'red' && [text, key].includes(status.text ?? ''))
     expect(red.log.filter(({ level, id }) => level === 'error' && id === 'ondemand')).toHaveLength(1)
   })

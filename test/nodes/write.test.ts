@@ -98,7 +98,7 @@ describe('writing', () => {
       message: expect.stringContaining('tick'),
       cause: { outcome: 'notSent' },
     })
-    await red.status('write', { fill: 'red', text: '@melsec-jw/plc/melsec-jw-connection:status.notAllowed' })
+    await red.status('write', { fill: 'red', text: 'not allowed' })
     expect(plc.statistics.requests).toBe(before)
     expect(plc.read('D114')).toBe(1)
     expect(red.pending('write')).toEqual([])
@@ -170,7 +170,7 @@ describe('writing', () => {
     const { error } = await caught('write', { payload: { D114: 3 } })
     expect(error.cause).toMatchObject({ outcome: 'unknown' })
     expect(error.cause.items).toMatchObject([{ name: 'D114', written: false, outcome: 'unknown' }])
-    await red.status('write', { text: '@melsec-jw/plc/melsec-jw-connection:status.timeout' })
+    await red.status('write', { text: 'timeout' })
     plc.faults.clear()
     await send('write', { payload: { D115: 1 } })
     expect(plc.read('D114')).toBe(3)
@@ -277,7 +277,7 @@ describe('control', () => {
         expect((await send('control', { payload })).payload).toEqual({ command: 'stop', verified: false })
         expect(other.cpu.state).toBe('STOP')
       }
-      const text = '@melsec-jw/plc/melsec-jw-connection:status.notVerified'
+      const text = 'not verified'
       await red.status('control', { fill: 'yellow', text })
       // Without being asked for nothing is said of it.
       const { payload } = await send('control', { payload: { command: 'run', verify: false } })
