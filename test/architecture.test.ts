@@ -152,7 +152,11 @@ describe('the sources', () => {
   })
 
   test('are short enough to be of one subject', () => {
-    const long = [...sources.map((file) => file.path), ...filesBelow('nodes', '.html')]
+    const long = [
+      ...sources.map((file) => file.path),
+      ...filesBelow('nodes', '.html'),
+      ...filesBelow('resources', '.js'),
+    ]
       .map((path) => ({ path, lines: readText(path).split('\n').length }))
       .filter(({ path, lines }) => lines > LONGEST_FILE && !DATA_TABLES.includes(path))
     expect(long).toEqual([])

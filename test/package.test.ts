@@ -159,6 +159,43 @@ describe.each(nodeNames)('%s in four languages', (name) => {
   })
 })
 
+/** What the first argument of a call can be: whole keys, and the beginnings of those that are put together. */
+function keysOf(node: unknown): readonly { readonly key: string; readonly whole: boolean }[] {
+  if (!isNode(node)) return []
+  if (node.type === 'Literal') return [{ key: String(node.value), whole: true }]
+  if (node.type === 'ConditionalExpression') return [...keysOf(node.consequent), ...keysOf(node.alternate)]
+  if (node.type === 'BinaryExpression') return keysOf(node.left).map(({ key }) => ({ key, whole: false }))
+  if (node.type !== 'TemplateLiteral') return []
+  const [first] = node.quasis as readonly { readonly value: { readonly raw: string } }[]
+  return [{ key: first?.value.raw ?? '', whole: false }]
+}
+
+describe('the scripts that the dialogs share', () => {
+  const paths = filesBelow('resources', '.js')
+  const html = readText('nodes/melsec-jw-connection.html')
+
+  test('are loaded by the connection, which every other node needs, and are packed', () => {
+    const loaded = [...html.matchAll(/<script src="resources\/([^"]+)"><\/script>/g)].map(([, path]) => path)
+    expect(loaded.sort()).toEqual(paths.map((path) => path.replace('resources/', `${manifest.name}/`)).sort())
+    expect(manifest.files).toContain('resources')
+  })
+
+  test('ask for texts that exist', () => {
+    const known = [...textsOf(readJson('nodes/locales/en-US/melsec-jw-connection.json')).keys()]
+    const calls = paths
+      .flatMap((path) => [...nodesOf(parse(readText(path), { ecmaVersion: 'latest' }))])
+      .filter((node) => node.type === 'CallExpression')
+      .filter(({ callee }) => ['text', '_'].includes(keyOf(callee, 'property') ?? ''))
+    const asked = calls.flatMap((call) => keysOf((call.arguments as readonly unknown[])[0]))
+    const keys = asked.filter(({ key }) => /^[a-z]+\./.test(key))
+    expect(keys.length).toBeGreaterThan(20)
+    const missing = keys.filter(
+      ({ key, whole }) => !known.some((each) => (whole ? each === key : each.startsWith(key))),
+    )
+    expect(missing).toEqual([])
+  })
+})
+
 test('N02: every node is in an example flow', () => {
   const used = filesBelow('examples', '.json').flatMap((path) => readJson(path) as { type: string }[])
   const types = new Set(used.map((node) => node.type))
@@ -181,6 +218,13 @@ describe('in a user directory of Node-RED', () => {
     expect(ours.map((set) => set.err).filter((error) => error !== undefined)).toEqual([])
     expect(ours.flatMap((set) => set.types).sort()).toEqual([...nodeNames].sort())
     expect(nodeNames.filter((name) => !name.startsWith('melsec-jw-'))).toEqual([])
+  })
+
+  test('the scripts that the dialogs share are served', async () => {
+    for (const path of filesBelow('resources', '.js')) {
+      const { status, text } = await red.http('GET', path.replace('resources/', `resources/${manifest.name}/`))
+      expect({ path, status, text }).toEqual({ path, status: 200, text: readText(path) })
+    }
   })
 
   test('the import menu offers the example flows', async () => {

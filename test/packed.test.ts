@@ -1,6 +1,6 @@
 // The package as a user gets it: packed, installed into an empty project, required, imported and compiled against.
 import { execFile } from 'node:child_process'
-import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs'
+import { mkdirSync, mkdtempSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
@@ -68,6 +68,11 @@ console.log(await client.read('D100:REAL'))
 await client.close()
 await plc.close()`
     expect(await node('program.mjs', text)).toBe('71.5')
+  })
+
+  test('has the scripts that the dialogs of its nodes share', () => {
+    const packed = readdirSync(join(project, 'node_modules', '@melsec-jw', 'plc', 'resources')).sort()
+    expect(packed).toEqual(readdirSync(join(root, 'resources')).sort())
   })
 
   test('has its command line', async () => {

@@ -1,0 +1,51 @@
+/** The dialogs of the nodes in the real editor, as the tests of the editor open and close them. */
+import { mkdir } from 'node:fs/promises'
+import { join } from 'node:path'
+import type { Page } from 'playwright-core'
+
+/** What the editor's own code offers to its page. */
+export interface Editor {
+  readonly RED: {
+    readonly editor: { edit(node: unknown): void; editConfig(name: string, type: string, id: string): void }
+    readonly workspaces: { show(id: string): void }
+    readonly nodes: {
+      node(id: string): Record<string, unknown>
+      eachNode(look: (node: { id: string; valid?: boolean }) => void): void
+      eachConfig(look: (node: { id: string; valid?: boolean }) => void): void
+    }
+  }
+}
+
+export async function edit(page: Page, id: string): Promise<void> {
+  await page.evaluate((node) => {
+    const { RED } = globalThis as unknown as Editor
+    const found = RED.nodes.node(node)
+    if (node === 'plc') RED.editor.editConfig('', 'melsec-jw-connection', node)
+    else RED.editor.edit(found)
+  }, id)
+  await page.locator('.red-ui-tray-body .melsec-jw-form').last().waitFor()
+  // The tray slides in.
+  await page.waitForFunction(() => {
+    const tray = [...document.querySelectorAll('.red-ui-tray')].at(-1)
+    return tray !== undefined && tray.getBoundingClientRect().right <= window.innerWidth + 1
+  })
+}
+
+export async function close(page: Page, button: 'ok' | 'cancel'): Promise<void> {
+  await page.locator(`#node-dialog-${button}:visible, #node-config-dialog-${button}:visible`).last().click()
+  await page.locator('.red-ui-tray').waitFor({ state: 'detached' })
+}
+
+export function property(page: Page, id: string, name: string): Promise<unknown> {
+  return page.evaluate(
+    ([node, field]) => (globalThis as unknown as Editor).RED.nodes.node(node ?? '')[field ?? ''],
+    [id, name],
+  )
+}
+
+export async function picture(page: Page, name: string): Promise<void> {
+  const folder = process.env.MELSEC_JW_SCREENSHOTS
+  if (folder === undefined) return
+  await mkdir(folder, { recursive: true })
+  await page.screenshot({ path: join(folder, `${name}.png`) })
+}
