@@ -74,4 +74,24 @@ describe('an explanation', () => {
   test('of what this PLC has not got is refused', () => {
     expect(() => explain('LTN0', 'q')).toThrow(/LTN0: MELSEC-Q has no device LTN/)
   })
+
+  test.each<[string, ProfileId, string | undefined]>([
+    ['D7999', 'iq-f', undefined],
+    ['D8000', 'iq-f', 'D7999'],
+    ['D7999:REAL', 'iq-f', 'D7999'],
+    ['D7990[11]', 'iq-f', 'D7999'],
+    ['D7999.F', 'iq-f', undefined],
+    ['D7999.F[2]', 'iq-f', 'D7999'],
+    ['X2000', 'iq-f', 'X1777'],
+    ['D99999999', 'iq-r', 'D18431'],
+    // What a module or a pointer has is not of the CPU's ranges.
+    ['U3\\G99999', 'iq-r', undefined],
+    ['D18431Z2[9]', 'iq-r', undefined],
+    ['@D18431:DINT', 'iq-r', undefined],
+    // The range of a generic PLC is not known.
+    ['D99999', 'generic', undefined],
+  ])('of %s on %s says when it is behind the last device', (text, profile, last) => {
+    expect(explain(text, profile).beyond?.last).toBe(last)
+    if (last !== undefined) expect(explain(text, profile).beyond?.profile).toBe(profile)
+  })
 })

@@ -302,6 +302,25 @@ describe('in English', () => {
     await close(page, 'ok')
   })
 
+  test('the note below what is allowed follows the ticks', async () => {
+    await edit(page, 'plc')
+    const note = page.locator('#melsec-jw-allowed')
+    const [writes, controls] = ['allowWrites', 'allowControl'].map((name) => page.locator(`#node-config-input-${name}`))
+    const told = [await note.textContent()]
+    for (const box of [writes, controls, writes]) {
+      await box?.click()
+      told.push(await note.textContent())
+    }
+    expect(told).toEqual([
+      expect.stringMatching(/^Off until you tick them/),
+      'Flows can change device values of the PLC. Remote control is off.',
+      expect.stringMatching(/^(?!Off until)/),
+      expect.stringMatching(/^(?!Off until)/),
+    ])
+    expect(new Set(told).size).toBe(4)
+    await close(page, 'cancel')
+  })
+
   test('the test button lists ranked causes of a failure', async () => {
     const before = await property(page, 'plc', 'code')
     await edit(page, 'plc')
