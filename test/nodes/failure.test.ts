@@ -31,7 +31,9 @@ describe('an end code', () => {
     const { meaning = '', remedy = '' } = explainEndCode(0xc056, { language }) ?? {}
     const details = detailsOf(refused(0xc056, 'Read (word units)'), textsIn(language))
     expect(details).toMatchObject({ code: 'END_CODE', endCode: 0xc056, meaning, remedy })
-    expect(details.message).toContain('Read (word units)')
+    // The command by its name in the language; programs get the one of the manual.
+    expect(details.message).toContain(textsIn(language)('command.readWords'))
+    expect(details).toMatchObject({ command: 'Read (word units)' })
     expect(details.message).toContain(`C056H`)
     expect(details.message).toContain(`${meaning} ${remedy}`)
     expect(details.message).not.toContain('__')

@@ -84,9 +84,21 @@ describe('settings of a connection', () => {
       xyRadix: 16,
       route: { moduleIo: 0x3e1 },
       format: {},
+      reconnect: { longest: 5000 },
       allowWrites: false,
       allowControl: false,
     })
+  })
+
+  test('the pauses between attempts and the queue are bounded as set', () => {
+    const stored = { host: 'plc', port: 5007, profile: 'iq-r' }
+    const given = { reconnectFirst: '200', reconnectLongest: '60000', queueLimit: '50' }
+    const { reconnect, queueLimit } = createMelsecClient(read({ ...stored, ...given })).options
+    expect({ reconnect, queueLimit }).toEqual({ reconnect: { first: 200, longest: 60_000 }, queueLimit: 50 })
+    expect(createMelsecClient(read(stored)).options.reconnect).toMatchObject({ longest: 5000 })
+    expect(() => read({ ...stored, reconnectLongest: '5 s' })).toThrow('reconnectLongest')
+    expect(() => createMelsecClient(read({ ...stored, reconnectFirst: '0' }))).toThrow('reconnect.first')
+    expect(() => createMelsecClient(read({ ...stored, queueLimit: '0' }))).toThrow('queueLimit')
   })
 
   test.each(['auto', 'typeName', 'read', 'none'])('the proof of a connection is chosen: %s', (probe) => {
