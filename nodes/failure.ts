@@ -7,6 +7,7 @@ import {
   EndCodeError,
   explainEndCode,
   headOfError,
+  isPortLocked,
   type Outcome,
   PlcError,
   RequestError,
@@ -14,9 +15,6 @@ import {
   UnfinishedError,
 } from '../src/index'
 import { languageOf, type Texts } from './texts'
-
-/** The port is locked by a remote password. */
-const PORT_LOCKED = 0xc201
 
 /** Failures that only nodes know. */
 export type NodeErrorCode =
@@ -112,7 +110,7 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
       endCode,
       ...(abnormalCode === undefined ? {} : { abnormalCode }),
       ...present({ message: refusedText(error, explained, texts), ...explained, command, station }),
-      ...(endCode === PORT_LOCKED ? { causes: [texts('error.portLocked')] } : {}),
+      ...(isPortLocked(error) ? { causes: [texts('error.portLocked')] } : {}),
     }
   }
   if (error instanceof RequestError) return present({ field: error.field })

@@ -127,6 +127,7 @@ export {
   type TransportName,
 } from './melsec/profile'
 export type { ExchangeOptions } from './melsec/protocol'
+export { isPortLocked } from './melsec/remote-password'
 export { moduleIoNumbers, type Route } from './melsec/route'
 export * from './simulator/simulator'
 export type { Clock } from './transport/clock'

@@ -2,6 +2,7 @@
 import {
   ConnectionError,
   EndCodeError,
+  isPortLocked,
   type PlanDescription,
   PlcError,
   type ReadValue,
@@ -72,7 +73,7 @@ const PASSWORD_HINT = ' Say --password, or put it into the environment variable 
 
 /** The port waits for its remote password: what to do here the text of the end code cannot know. */
 function isLocked(error: PlcError): boolean {
-  return error instanceof EndCodeError && error.endCode === 0xc201
+  return error instanceof EndCodeError && isPortLocked(error)
 }
 
 /** An error as data, with everything it knows. */

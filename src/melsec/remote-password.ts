@@ -18,9 +18,10 @@ export function passwordProblem(profile: Profile, password: unknown): string | u
   return `the remote password has ${password.length} characters; ${profile.title} takes ${range}`
 }
 
-/** The port is locked: unlock it first. */
-const PORT_LOCKED = 0xc201
+/** End code: the port is locked by the remote password; unlock it first. */
+export const PORT_LOCKED = 0xc201
 
+/** Whether the port waits for its remote password. */
 export function isPortLocked({ endCode }: EndCodeError): boolean {
   return endCode === PORT_LOCKED
 }

@@ -1,5 +1,6 @@
 // The remote password of the simulated port (SLMP reference manual 5.7, FX5 communication manual 13.2 and 38.6).
 import type { ProfileId } from '../melsec/profile'
+import { PORT_LOCKED } from '../melsec/remote-password'
 import type { Clock } from '../transport/clock'
 import { Refusal } from './refusal'
 
@@ -39,8 +40,6 @@ const passwordRefusals: Readonly<Record<ProfileId, PasswordRefusals>> = {
   fx3: remotePassword,
 }
 
-/** The port is locked by the remote password. */
-const LOCKED = 0xc201
 /** ms without traffic after which a UDP connection is locked again (FX5 communication manual 13.2). */
 const UDP_IDLE = 10 * 60_000
 
@@ -114,7 +113,7 @@ export class PortLock {
     const at = now()
     if (at - this.#lastAt >= idle) this.#unlocked = false
     this.#lastAt = at
-    if (!this.#unlocked && !free) throw new Refusal(LOCKED, 'the port is locked by the remote password')
+    if (!this.#unlocked && !free) throw new Refusal(PORT_LOCKED, 'the port is locked by the remote password')
   }
 
   /** An unlocked port stays as it is, and the password is not looked at. */
