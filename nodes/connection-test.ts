@@ -1,5 +1,6 @@
 /**
  * `POST /melsec-jw/connection/test`: connects, asks the CPU who it is and measures the round trip.
+ * `POST /melsec-jw/connection/find`: tries which frames and data codes are answered.
  *
  * Body: `{ id, settings }`: the connection node and its settings as they stand in the dialog, also before they are
  * deployed. So the host is whatever the user typed: whoever may call this may deploy flows that connect anywhere, and
@@ -60,7 +61,7 @@ export function connectionTest(RED: NodeAPI, texts: Texts, deployed: (id: string
     alone(() => outcome(RED, texts, body, over, deployed)),
   )
   endpoint(RED, '/melsec-jw/connection/find', 'melsec-jw.write', texts, (body, over) =>
-    alone(() => found(RED, texts, body, over)),
+    alone(() => found(RED, texts, body, over, deployed)),
   )
 
   async function alone(work: () => Promise<object>): Promise<Reply> {
@@ -87,7 +88,7 @@ async function outcome(
   let port = 0
   try {
     const options = optionsIn(RED, id, objectIn(body, 'settings'), texts)
-    peer = `${options.transport ?? 'tcp'} ${options.host}:${options.port}`
+    peer = peerOf(options)
     port = options.port
     const running = connected(connection, options)
     if (running !== undefined) return await ask(running, over)
@@ -103,7 +104,7 @@ async function outcome(
     const strange = isBadAnswer(code) || badAnswerBehind(error)
     const further =
       strange && causes.length === 0 ? [texts('test.otherService', { port }), texts('test.otherLine')] : causes
-    const ours = connection?.current?.state.name === 'connected' && TURNED_AWAY.includes(code)
+    const ours = isUp(connection) && TURNED_AWAY.includes(code)
     const message = withoutCauses(details, peer, texts)
     return {
       ok: false,
@@ -130,29 +131,47 @@ function badAnswerBehind(error: unknown): boolean {
   return false
 }
 
-/** `POST /melsec-jw/connection/find`: which frames and data codes the PLC answers to. */
+/** What `POST /melsec-jw/connection/find` answers. */
+type Found =
+  | { readonly ok: true; readonly lines: readonly AnsweringLine[] }
+  | { readonly ok: false; readonly message: string; readonly causes: readonly string[] }
+
+/** Which frames and data codes the PLC answers to. */
 async function found(
   RED: NodeAPI,
   texts: Texts,
   body: StoredSettings,
   over: AbortSignal,
-): Promise<
-  { readonly ok: true; readonly lines: readonly AnsweringLine[] } | { readonly ok: false; readonly message: string }
-> {
+  deployed: (id: string) => Connection | undefined,
+): Promise<Found> {
+  const id = typeof body.id === 'string' ? body.id : ''
+  let peer = ''
   try {
-    const options = optionsIn(RED, typeof body.id === 'string' ? body.id : '', objectIn(body, 'settings'), texts)
+    const options = optionsIn(RED, id, objectIn(body, 'settings'), texts)
+    peer = peerOf(options)
     const lines = await answeringLines(options, over)
-    const peer = `${options.transport ?? 'tcp'} ${options.host}:${options.port}`
-    return lines.length > 0 ? { ok: true, lines } : { ok: false, message: texts('test.foundNone', { peer }) }
+    if (lines.length > 0) return { ok: true, lines }
+    const causes = isUp(deployed(id)) ? [texts('error.entryHeld')] : []
+    return { ok: false, message: texts('test.foundNone', { peer }), causes }
   } catch (error) {
-    return { ok: false, message: detailsOf(error, texts).message }
+    const details = detailsOf(error, texts)
+    return { ok: false, message: withoutCauses(details, peer, texts), causes: details.causes ?? [] }
   }
+}
+
+function peerOf({ transport = 'tcp', host, port }: MelsecClientOptions): string {
+  return `${transport} ${host}:${port}`
 }
 
 function optionsIn(RED: NodeAPI, id: string, given: StoredSettings, texts: Texts): MelsecClientOptions {
   const settings = settingsOf(given, { texts, resolve: resolverOf(RED, RED.nodes.getNode(id), texts) })
   // The test is what finds the series out, so it does not need it.
   return optionsOf(settings.profile === '' ? { ...settings, profile: 'generic' } : settings, texts)
+}
+
+/** The deployed connection has an entry of its PLC. */
+function isUp(connection: Connection | undefined): boolean {
+  return connection?.current?.state.name === 'connected'
 }
 
 /** The running client, when it speaks as is to be tested: the PLC may have no second entry for a test. */
