@@ -185,6 +185,31 @@ describe('quality', () => {
     expect(Object.values(payload as object)).toHaveLength(4)
     for (const value of Object.values(payload as object)) expect(value).toMatchObject({ value: null, quality: 'bad' })
   })
+
+  test('is bad for everything for want of a connection: the status says in red why, and is green again by itself', async () => {
+    const other = await startPlc()
+    await red.deploy([connectionTo(other), readNode(TANK, { quality: true })])
+    await ask()
+    await red.status('read', { fill: 'green' })
+    other.restart(1500)
+    const { state } = (await red.status('read', { fill: 'red' })) as { state?: string }
+    expect(['waiting', 'connecting']).toContain(state)
+    const { payload } = await ask()
+    for (const value of Object.values(payload as object)) expect(value).toMatchObject({ quality: 'bad' })
+    const shown = red.statuses('read')
+    expect(shown.at(-1)).toMatchObject({ fill: 'red', code: expect.stringMatching(/CONNECT_FAILED|DISCONNECTED/) })
+    expect(shown.slice(shown.findIndex(({ fill }) => fill === 'red')).every(({ fill }) => fill === 'red')).toBe(true)
+    expect(await red.status('read', { fill: 'green' })).toEqual({
+      fill: 'green',
+      shape: 'dot',
+      text: 'connected',
+      state: 'connected',
+    })
+    const again = (await ask()).payload
+    for (const value of Object.values(again as object)) expect(value).toMatchObject({ quality: 'good' })
+    await red.deploy([])
+    await other.close()
+  })
 })
 
 describe('when some items fail', () => {

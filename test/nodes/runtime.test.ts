@@ -1,7 +1,8 @@
 /** What depends on how Node-RED itself is set up: its language, and who may do what. */
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
-import type { PlcSimulator } from '../../src/index'
+import { languages, type PlcSimulator } from '../../src/index'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
+import { readText } from '../support/syntax'
 import { type CaughtError, catchNode, connectionTo, portOf, readNode, startPlc, writeNode } from './flow'
 
 let plc: PlcSimulator
@@ -61,4 +62,34 @@ describe('for a user who may only look', () => {
     expect((await red.http('POST', 'melsec-jw/file/list', browse)).status).toBe(401)
     expect(plc.statistics.connections).toBe(before)
   })
+})
+
+describe.each([...languages, 'de'])('in %s', (language) => {
+  test('a status node gets readable texts, the code and the state of the connection', async () => {
+    const red = await startNodeRed({ language })
+    const catalogue = JSON.parse(
+      readText(`nodes/locales/${language === 'de' ? 'en-US' : language}/melsec-jw-connection.json`),
+    ) as { status: Record<string, string> }
+    const shown = async (wanted: object): Promise<Record<string, unknown>> => {
+      for (let count = 0; count < 20; count++) {
+        const { status } = (await red.next('status')) as Message & { status: Record<string, unknown> }
+        expect(String(status.text ?? '')).not.toMatch(/status\.|melsec-jw|node-red:|__/)
+        if (Object.entries(wanted).every(([key, value]) => status[key] === value)) return status
+      }
+      throw new Error('not shown')
+    }
+    const statusNode = { id: 'status', type: 'status', scope: null, wires: [[]] }
+    await red.deploy([statusNode, connectionTo(plc), readNode(['D100'])])
+    const good = { fill: 'green', text: catalogue.status.connected, state: 'connected' }
+    expect(await shown({ fill: 'green' })).toMatchObject(good)
+    plc.faults.add({ kind: 'endCode', endCode: 0xc056, commands: ['readWords'] })
+    await red.receive('read', {})
+    const refused = catalogue.status.endCode?.replace('__code__', 'C056')
+    const bad = { text: refused, code: 'END_CODE', endCode: 0xc056, state: 'connected' }
+    expect(await shown({ fill: 'red' })).toMatchObject(bad)
+    plc.faults.clear()
+    await red.deploy([statusNode, connectionTo(plc, { port: '1' }), readNode(['D100'])])
+    expect(await shown({ code: 'CONNECT_FAILED' })).toMatchObject({ fill: 'red', text: catalogue.status.notReached })
+    await red.stop()
+  }, 60_000)
 })
