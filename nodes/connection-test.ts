@@ -119,8 +119,9 @@ async function outcome(
 /** With its causes a message is long, and they are listed below it. */
 function withoutCauses({ code, message, causes = [] }: FailureDetails, peer: string, texts: Texts): string {
   if (code === 'SILENT' && causes.length > 0) return texts('test.silent', { peer })
-  const at = message.search(/ (?:Likely|Most likely|Possible causes): /)
-  return causes.length > 0 && at > 0 ? message.slice(0, at) : message
+  const untold = causes.reduce((text, cause) => text.replace(` ${cause}`, ''), message)
+  const at = untold.search(/ (?:Likely|Most likely|Possible causes): /)
+  return causes.length > 0 && at > 0 ? untold.slice(0, at) : untold
 }
 
 /** A connection that ended because of what came over it. */

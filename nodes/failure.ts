@@ -109,8 +109,8 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
     return {
       endCode,
       ...(abnormalCode === undefined ? {} : { abnormalCode }),
-      ...present({ message: refusedText(error, explained, texts), ...explained, command, station }),
-      ...(isPortLocked(error) ? { causes: [texts('error.portLocked')] } : {}),
+      ...present({ ...explained, command, station }),
+      ...toldWith(refusedText(error, explained, texts), isPortLocked(error) ? [texts('error.portLocked')] : []),
     }
   }
   if (error instanceof RequestError) return present({ field: error.field })
@@ -122,6 +122,11 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
     return error.causes.length === 0 ? {} : { causes: error.causes }
   }
   return {}
+}
+
+/** A message with its causes at its end, because a sidebar and a log show nothing else. */
+function toldWith(message: string, causes: readonly string[]): Pick<FailureDetails, 'message' | 'causes'> {
+  return causes.length === 0 ? { message } : { message: [message, ...causes].join(' '), causes }
 }
 
 interface Explanation {

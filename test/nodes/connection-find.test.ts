@@ -187,7 +187,8 @@ describe('the test names a cause', () => {
     const plc = await plcWith({ profile: 'iq-r', password: 'Secret-1' })
     const { body } = await ask('test', { settings: settings(portOf(plc)) })
     expect(body).toMatchObject({ ok: false, endCode: 0xc201 })
-    expect(body.causes).toEqual([expect.stringMatching(/Communication/)])
+    expect(body.causes).toEqual([expect.stringContaining('page Communication')])
+    expect(body.message).not.toContain('page Communication')
   })
 
   test('the true one first for an FX5U that was taken for an iQ-R, and each of them once', async () => {
@@ -207,6 +208,8 @@ test('a flow that was imported without its credentials says at its nodes where t
   await red.status('read', { fill: 'green' })
   await red.receive('read', {})
   const { error } = await red.completed('read')
+  // In the message, which the sidebar and the log show, and as data.
+  expect((error as Error).message).toContain('page Communication')
   expect(error).toMatchObject({ code: 'END_CODE', cause: { causes: [expect.stringContaining('Communication')] } })
   expect(await red.status('read', { fill: 'red' })).toMatchObject({ text: 'end code C201', endCode: 0xc201 })
 })
