@@ -37,8 +37,9 @@ function check(body: StoredSettings, texts: Texts): Reply {
 export function speaker(given: StoredSettings, texts: Texts): MelsecClient | { readonly problem: string } {
   try {
     // What decides about addresses is chosen from lists, so it holds no variables; the rest does not matter here.
-    const { profile, frame, code, asciiXy, asciiZr, xyRadix } = settingsOf(given, { texts, resolve: (text) => text })
-    const chosen = { profile: profile === '' ? 'generic' : profile, frame, code, asciiXy, asciiZr, xyRadix }
+    const { profile, ...said } = settingsOf(given, { texts, resolve: (text) => text })
+    const { frame, code, asciiXy, asciiZr, xyRadix, wRadix } = said
+    const chosen = { profile: profile === '' ? 'generic' : profile, frame, code, asciiXy, asciiZr, xyRadix, wRadix }
     const settings = settingsOf(chosen, { texts, resolve: (text) => text })
     return createMelsecClient({ host: 'nowhere', port: 1, ...speech(settings, texts) })
   } catch (error) {

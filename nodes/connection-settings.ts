@@ -29,6 +29,8 @@ export interface ConnectionSettings {
   readonly asciiWordOrder: string
   /** Numbering of X and Y in addresses: `8`, `16` or `''`. */
   readonly xyRadix: string
+  /** Numbering of W in addresses: `10`, `16` or `''`. */
+  readonly wRadix: string
   readonly network: string
   readonly station: string
   /** Hexadecimal, e.g. `3FF`. */
@@ -69,6 +71,7 @@ const TEXT_FIELDS = [
   'asciiZr',
   'asciiWordOrder',
   'xyRadix',
+  'wRadix',
   'network',
   'station',
   'moduleIo',
@@ -164,6 +167,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       asciiZr: choice(settings, 'asciiZr', ['decimal', 'hexadecimal'], texts),
       asciiWordOrder: choice(settings, 'asciiWordOrder', ['low-first', 'high-first'], texts),
       xyRadix: xyRadixOf(settings, texts),
+      wRadix: wRadixOf(settings, texts),
       monitoringTimer: number('monitoringTimer'),
       timeout: number('timeout'),
       probe: choice(settings, 'probe', ['auto', 'typeName', 'read', 'none'], texts),
@@ -215,6 +219,11 @@ function formatOf(settings: ConnectionSettings, texts: Texts): ValueFormat {
 function xyRadixOf(settings: ConnectionSettings, texts: Texts): 8 | 16 | undefined {
   const text = choice(settings, 'xyRadix', ['8', '16'], texts)
   return text === undefined ? undefined : text === '8' ? 8 : 16
+}
+
+function wRadixOf(settings: ConnectionSettings, texts: Texts): 10 | 16 | undefined {
+  const text = choice(settings, 'wRadix', ['10', '16'], texts)
+  return text === undefined ? undefined : text === '10' ? 10 : 16
 }
 
 function choice<T extends string>(

@@ -45,8 +45,8 @@ const editorSettings = {
 
 /** What a series makes of settings that are left empty. */
 function factsOf(id: ProfileId): object {
-  const { frame, xyRadix, asciiXy, monitoringTimer } = profiles[id]
-  return { frame, xyRadix, asciiXy, monitoringTimer: monitoringTimer.default }
+  const { frame, xyRadix, wRadix, asciiXy, monitoringTimer } = profiles[id]
+  return { frame, xyRadix, wRadix, asciiXy, monitoringTimer: monitoringTimer.default }
 }
 
 export = function register(RED: NodeAPI): void {

@@ -66,6 +66,11 @@
       .text(melsecJw.text('test.cpu', { cpu: cpu }))
       .appendTo(box)
     if (result.unidentified) $('<div class="melsec-jw-hint">').text(result.unidentified).appendTo(box)
+    if (result.warning?.code === 'W_RADIX') {
+      $('<div class="melsec-jw-hint">')
+        .text(melsecJw.text('test.wRadix', { model: result.model }))
+        .appendTo(box)
+    }
     const times = result.roundTrip
     function ms(value) {
       return value.toFixed(value < 10 ? 2 : 0)
@@ -196,12 +201,14 @@
     const facts = RED.settings.melsecJwConnectionProfiles?.[profile] || {}
     const frame = facts.frame ? node._(`option.${facts.frame}`) : ''
     const radix = facts.xyRadix ? node._(facts.xyRadix === 8 ? 'option.octalXy' : 'option.hexadecimalXy') : ''
+    const ofW = facts.wRadix ? node._(facts.wRadix === 10 ? 'option.decimalW' : 'option.hexadecimalW') : ''
     function name(value) {
       return node._('option.seriesDefault') + (value === '' ? '' : ` (${value})`)
     }
     // The editor would put the text of data-i18n back.
     $('#node-config-input-frame option[value=""]').removeAttr('data-i18n').text(name(frame))
     $('#node-config-input-xyRadix option[value=""]').removeAttr('data-i18n').text(name(radix))
+    $('#node-config-input-wRadix option[value=""]').removeAttr('data-i18n').text(name(ofW))
     showAscii()
     $('#node-config-input-monitoringTimer').attr(
       'placeholder',

@@ -2,7 +2,7 @@
 // each adds its functions to `melsecJw`, and uses those of the others when a dialog is open only.
 ;(() => {
   const CATALOGUE = '@melsec-jw/plc/melsec-jw-connection:'
-  const SPEECH = ['profile', 'frame', 'code', 'asciiXy', 'asciiZr', 'xyRadix']
+  const SPEECH = ['profile', 'frame', 'code', 'asciiXy', 'asciiZr', 'xyRadix', 'wRadix']
   const PAUSE = 250
 
   function text(key, values) {

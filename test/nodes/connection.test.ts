@@ -356,6 +356,17 @@ describe('the address check of the editor', () => {
     expect(overridden.results).toMatchObject([{ ok: true, radix: 16 }])
   })
 
+  test('numbers W as the connection does', async () => {
+    const items = [
+      { address: 'W902', type: '' },
+      { address: 'W1F', type: '' },
+    ]
+    const usual = (await check({ profile: 'generic' }, items)).body
+    expect(usual.results).toMatchObject([{ ok: true, radix: 16 }, { ok: true }])
+    const decimal = (await check({ profile: 'generic', wRadix: '10' }, items)).body
+    expect(decimal.results).toMatchObject([{ ok: true, radix: 10, first: 'W902' }, { ok: false }])
+  })
+
   test('takes labels where the series has them, and says what to write for one that looks like a device', async () => {
     const items = ['Line1.Speed', 'Line1.Values[0]:INT[10]', 'label:DD100', 'DD100'].map((address) => ({
       address,
@@ -403,6 +414,14 @@ describe('the connection test of the editor', () => {
     const { body } = await run({ id: 'nobody', settings: settings({ profile: '' }) })
     expect(body).toMatchObject({ ok: true, model: 'R08CPU', profile: 'iq-r', roundTrip: { count: 10 } })
     await connections(0)
+  })
+
+  test('warns of an inverter that may number W in decimal, unless that is set', async () => {
+    const inverter = await startPlc({ profile: 'generic', model: { name: 'FR-E800-E', code: 0x054f } })
+    const own = { ...connectionTo(inverter), profile: 'generic' }
+    expect((await run({ settings: own })).body).toMatchObject({ ok: true, warning: { code: 'W_RADIX' } })
+    expect((await run({ settings: { ...own, wRadix: '10' } })).body).not.toHaveProperty('warning')
+    await inverter.close()
   })
 
   test('measures the round trip to the connected station, whatever the route', async () => {

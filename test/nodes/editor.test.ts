@@ -302,6 +302,29 @@ describe('in English', () => {
     await close(page, 'ok')
   })
 
+  test('the test button warns of an inverter that may number W in decimal, which the page Values sets', async () => {
+    const inverter = await startPlc({ profile: 'generic', model: { name: 'FR-E800-E', code: 0x054f } })
+    const before = await property(page, 'plc', 'port')
+    await edit(page, 'plc')
+    await page.locator('#node-config-input-profile').selectOption('generic')
+    await page.locator('#node-config-input-port').fill(String(inverter.tcp?.port))
+    const result = page.locator('#melsec-jw-test-result')
+    const told = async () => {
+      await page.getByRole('button', { name: 'Test connection' }).click()
+      await result.getByText('The PLC answers').waitFor()
+      return result.textContent()
+    }
+    expect(await told()).toContain('FR-E800-E is an inverter, and inverters are said to number W in decimal')
+    const numbering = page.locator('#node-config-input-wRadix')
+    expect(await numbering.locator('option').first().textContent()).toContain('hexadecimal (WA follows W9)')
+    // On another page of the dialog.
+    await numbering.selectOption('10', { force: true })
+    expect(await told()).not.toContain('decimal')
+    await close(page, 'cancel')
+    expect(await property(page, 'plc', 'port')).toBe(before)
+    await inverter.close()
+  })
+
   test('the note below what is allowed follows the ticks', async () => {
     await edit(page, 'plc')
     const note = page.locator('#melsec-jw-allowed')

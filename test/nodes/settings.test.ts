@@ -77,11 +77,14 @@ describe('settings of a connection', () => {
   })
 
   test('numbers may be numbers or text, and what is empty is left to the client', () => {
-    expect(read({ host: 'plc', port: 5007, profile: 'q', moduleIo: '3e1h', xyRadix: '16', localPort: '' })).toEqual({
+    expect(
+      read({ host: 'plc', port: 5007, profile: 'q', moduleIo: '3e1h', xyRadix: '16', wRadix: '10', localPort: '' }),
+    ).toEqual({
       host: 'plc',
       port: 5007,
       profile: 'q',
       xyRadix: 16,
+      wRadix: 10,
       route: { moduleIo: 0x3e1 },
       format: {},
       reconnect: { longest: 5000 },
