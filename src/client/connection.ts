@@ -17,7 +17,7 @@ import { tell } from './tell'
 export type { ConnectionOptions, ConnectionState, Silence, TracedFrame } from './connection-options'
 
 /** How soon the proof of a fixed port is asked again, as a part of the deadline of a usual call: datagrams get lost. */
-const PROOFS_PER_TIMEOUT = 4
+const PROOFS_PER_TIMEOUT = 8
 
 export class Connection<Head> {
   readonly #options: ConnectionOptions<Head>

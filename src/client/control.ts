@@ -220,15 +220,12 @@ export function proofs<Head>(protocol: Pick<ClientProtocol<Head>, 'exchange'>, r
   return () => {
     count = (count + 1) % 0x1_0000_0000
     const pattern = [Math.floor(random() * 0x1_0000_0000), count].map(digits).join('')
-    const { head, body, responseLength, decode } = selfTestOf(protocol, pattern)
-    const isEcho = (frame: ResponseFrame<Head>) => {
-      decode(frame)
-      return true
-    }
+    const { head, body, responseLength, decode } = protocol.exchange(commands.selfTest, { data: pattern })
+    const read = (frame: ResponseFrame<Head>) => (decode(frame).data === pattern ? 'own' : 'another')
     // As characters, or in ASCII code of 1E frames as two digits for each.
     const forms = [Buffer.from(pattern), Buffer.from(Buffer.from(pattern).toString('hex'))]
-    const mayBe = (datagram: Buffer) => forms.some((form) => datagram.includes(form))
-    return { head, body, responseLength, mayBe, isEcho }
+    const mayBeOwn = (datagram: Buffer) => forms.some((form) => datagram.includes(form))
+    return { head, body, responseLength, mayBeOwn, read }
   }
 }
 

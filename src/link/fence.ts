@@ -10,9 +10,12 @@ export interface Echo<Head> {
   readonly body: Uint8Array
   readonly responseLength: BodyLength<Head>
   /** A quick look: `false` when the bytes cannot be its answer. */
-  mayBe(datagram: Buffer): boolean
-  /** Whether the frame answers exactly this question. */
-  isEcho(frame: ResponseFrame<Head>): boolean
+  mayBeOwn(datagram: Buffer): boolean
+  /**
+   * Whether the frame answers exactly this question (`own`), or one with another pattern (`another`).
+   * @throws PlcError when it is the answer to something else
+   */
+  read(frame: ResponseFrame<Head>): 'own' | 'another'
 }
 
 export interface FenceOptions<Head> {
@@ -87,7 +90,9 @@ export class Fence<Head> {
     if (onlyAtFirst && this.#asked.length > 0 && now >= this.#askAgainAt) this.#stand()
     if (this.#stands) return true
     if (this.#owed || this.#echoes === true) return false
-    if (this.#asked.length >= ENOUGH && this.#strays >= this.#asked.length) this.#echoes = false
+    // Its own answer to each question has had its time, and something else came.
+    const seemsToHaveNone = this.#asked.length >= ENOUGH && this.#strays >= this.#asked.length
+    if (seemsToHaveNone && now >= this.#askAgainAt) this.#echoes = false
     return this.#echoes === false
   }
 
@@ -107,17 +112,19 @@ export class Fence<Head> {
    * answer to the request in flight.
    */
   look(datagram: Buffer): 'echo' | 'stray' | undefined {
-    const answered = [...this.#former, ...this.#asked].find((echo) => this.#isEcho(echo, datagram))
-    if (answered !== undefined) this.#echoes = true
-    if (answered !== undefined && answered === this.#asked.at(-1)) {
+    const latest = this.#asked.at(-1)
+    const known = [...this.#former, ...this.#asked].some(
+      (echo) => echo.mayBeOwn(datagram) && this.#kindOf(echo, datagram) === 'own',
+    )
+    // Also to the program before: then it returns them.
+    const kind = latest && this.#kindOf(latest, datagram)
+    if (known || kind !== undefined) this.#echoes = true
+    if (kind === 'own') {
       this.#stand()
       return 'echo'
     }
-    if (this.#asked.length === 0) return answered && 'stray'
+    if (latest === undefined) return known ? 'stray' : undefined
     this.#strays += 1
-    // Answered, but not with its pattern: whether that is so for each question can be seen at once.
-    const seemsToHaveNone = this.#echoes === undefined && this.#strays === this.#asked.length
-    if (seemsToHaveNone && this.#asked.length < ENOUGH) this.#askAgainAt = Number.NEGATIVE_INFINITY
     return 'stray'
   }
 
@@ -135,15 +142,15 @@ export class Fence<Head> {
     this.#askAgainAt = Number.NEGATIVE_INFINITY
   }
 
-  #isEcho(echo: Echo<Head>, datagram: Buffer): boolean {
-    if (!echo.mayBe(datagram)) return false
+  #kindOf(echo: Echo<Head>, datagram: Buffer): 'own' | 'another' | undefined {
     try {
       const scanned = this.#framing.response.scan(datagram, (head, soFar) => echo.responseLength(head, soFar))
-      if (scanned === undefined || scanned.used !== datagram.length) return false
-      return this.#framing.mismatch(echo.head, scanned.frame.head) === undefined && echo.isEcho(scanned.frame)
+      if (scanned === undefined || scanned.used !== datagram.length) return undefined
+      if (this.#framing.mismatch(echo.head, scanned.frame.head) !== undefined) return undefined
+      return echo.read(scanned.frame)
     } catch (error) {
-      // Whatever it is, it is no echo.
-      if (error instanceof PlcError) return false
+      // Whatever it is, it is no answer to a self test.
+      if (error instanceof PlcError) return undefined
       throw error
     }
   }

@@ -255,9 +255,15 @@ export class Plc {
   sendPart(peer: Peer, bytes: Buffer, last: boolean): void {
     const behind = peer.behind ?? []
     peer.behind = undefined
-    this.#send(peer, bytes)
-    if (!last) peer.behind = behind
-    else for (const other of behind) this.#sendNow(peer, other)
+    if (last) {
+      this.#send(peer, bytes)
+      for (const other of behind) this.#sendNow(peer, other)
+      return
+    }
+    // What is held goes with a whole answer.
+    this.#sendNow(peer, bytes)
+    peer.behind = behind
+    this.onAnswered?.()
   }
 
   #sendNow(peer: Peer, bytes: Buffer): void {

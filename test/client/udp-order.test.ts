@@ -327,6 +327,47 @@ test('a self test that was asked twice proves nothing before the second one is b
   expect(asked).toEqual([7])
 })
 
+test('late echoes of the program before do not make a PLC one that has no self test', async () => {
+  const held: (() => void)[] = []
+  let holds = true
+  const { port, asked } = await plainPlc((bytes, reply) => {
+    const command = bytes.readUInt16LE(11)
+    const answer = {
+      257: () => typeName3e(bytes),
+      1025: () => answer3e(bytes, 0, word(bytes.readUIntLE(15, 3))),
+      1561: () => answer3e(bytes, 0, bytes.subarray(15)),
+    }[command]
+    if (answer === undefined) throw new Error(bytes.toString('hex'))
+    if (holds) held.push(() => reply(answer()))
+    else reply(answer())
+  })
+  const options = {
+    host: '127.0.0.1',
+    port,
+    transport: 'udp',
+    frame: '3E',
+    profile: 'q',
+    localPort: await freePort(),
+  } as const
+  const before = createMelsecClient({ ...options, timeout: 160 })
+  expect(await told(before.read('D1'))).toContain('notSent')
+  await before.close()
+  const late = held.splice(0)
+  expect(late.length).toBeGreaterThan(2)
+  const after = createMelsecClient({ ...options, timeout: 400 })
+  cleanups.push(() => after.close())
+  const read = told(after.read('D7', { timeout: 5000 }))
+  await until(() => held.length >= 2)
+  // In order: all that the program before had asked, and only later what this one asks.
+  for (const one of late) one()
+  await until(() => after.statistics.stale >= late.length)
+  await until(() => held.length >= 3)
+  holds = false
+  for (const one of held.splice(0)) one()
+  expect(await read).toBe(7)
+  expect(asked).toEqual([7])
+})
+
 test('4E on a fixed port: an answer to the program before is not taken for one with the same number', async () => {
   const socket = await bound()
   cleanups.push(() => new Promise<void>((resolve) => socket.close(() => resolve())))
