@@ -265,13 +265,14 @@ export class Connection<Head> {
     this.#probing.answered()
     this.#generation += 1
     this.#supervisor.connected(this.#clock.now())
-    this.#tellState()
+    // Before anybody is told: what a listener writes now must not go ahead of what waited, and it may close the connection.
     const held = this.#held
     this.#held = []
     for (const call of held) {
       if (call.sends) this.#line?.submit(call)
       else call.answer(undefined)
     }
+    this.#tellState()
   }
 
   #lost(error: PlcError): void {
@@ -298,7 +299,7 @@ export class Connection<Head> {
   /** A call on a connection that is gone. What was sent is never sent again; the rest may wait for the next one. */
   #handedBack(call: Call<Head>, sent: boolean, reason: PlcError): void {
     const { title, answered } = call.exchange
-    if (sent && !answered && failure.isSuccessOfReset(reason)) takeAsDone(call)
+    if (sent && !answered && failure.isGone(reason)) takeAsDone(call)
     else if (sent) call.fail(failure.lostInFlight(title, reason))
     else if (call.onlyOn !== undefined) call.fail(failure.otherConnection(title, reason))
     else if (this.#supervisor.hopeful) this.#held.push(call)

@@ -29,13 +29,13 @@ export function refusedToUnlock(title: string, reason: PlcError | undefined): Co
 /** The PLC has locked the port on a connection that had unlocked it. */
 export function lockedAgain(peer: string, reason: PlcError): ConnectionError {
   const message = `${peer} is locked by the remote password again; the connection is made anew to unlock it.`
-  return new ConnectionError('DISCONNECTED', message, 'notSent', reason)
+  return endedHere(new ConnectionError('DISCONNECTED', message, 'notSent', reason))
 }
 
 /** A PLC locks a UDP connection after 10 minutes without traffic. */
 export function unlockExpired(peer: string): ConnectionError {
   const message = `${peer} was idle for so long that the PLC has locked it by now; it is unlocked anew.`
-  return new ConnectionError('DISCONNECTED', message, 'notSent')
+  return endedHere(new ConnectionError('DISCONNECTED', message, 'notSent'))
 }
 
 export function closedBeforeSending(title: string): ClosedError {
@@ -194,7 +194,7 @@ export function reset(peer: string): ConnectionError {
 
 /** A failure that is no `PlcError` is a bug of this package; it ends the connection and is reported, not thrown. */
 export function unexpected(error: unknown): ConnectionError {
-  return new ConnectionError('DISCONNECTED', `Unexpected failure: ${String(error)}`, 'unknown', error)
+  return endedHere(new ConnectionError('DISCONNECTED', `Unexpected failure: ${String(error)}`, 'unknown', error))
 }
 
 export function asPlcError(error: unknown): PlcError {
@@ -205,6 +205,15 @@ export function asPlcError(error: unknown): PlcError {
  * Whether a connection that was lost for this reason is the success of a command that is not answered (Remote Reset):
  * the PLC has gone silent or has gone. Not when it was never there, or spoke nonsense.
  */
-export function isSuccessOfReset(reason: PlcError): boolean {
-  return reason instanceof ConnectionError && (reason.code === 'DISCONNECTED' || reason.code === 'SILENT')
+export function isGone(reason: PlcError): boolean {
+  if (!(reason instanceof ConnectionError) || ENDED_HERE.has(reason)) return false
+  return reason.code === 'DISCONNECTED' || reason.code === 'SILENT'
+}
+
+/** Why this side ended a connection on which the PLC may go on answering. */
+const ENDED_HERE = new WeakSet<PlcError>()
+
+function endedHere(error: ConnectionError): ConnectionError {
+  ENDED_HERE.add(error)
+  return error
 }

@@ -94,7 +94,10 @@ export function checkRequest(command: Command, message: unknown, form: unknown):
     throw new RequestError('UNSUPPORTED', message, 'command')
   }
   if (!isPlainObject(message)) {
-    throw new RequestError('BAD_MESSAGE', `The message of ${command.title} is an object, not ${shown(message)}.`)
+    throw new RequestError(
+      'BAD_MESSAGE',
+      `The message of ${command.title} is an object, not a value of type ${typeof message}.`,
+    )
   }
   if (form === undefined || (typeof form === 'string' && Object.hasOwn(FORM_BITS, form))) return
   const forms = Object.keys(FORM_BITS).join(', ')

@@ -14,7 +14,7 @@ import { type AnyItem, hasPrefix, isLabel, itemText, labelInstead, parsedLabel }
 import { randomMessage } from './label-request'
 import { type LabelLender, MixedItems, mixedMonitor, mixedReadPlan } from './mixed-read'
 import { type MixedEntry, MixedWrite } from './mixed-write'
-import { ItemMonitor, type Monitor, type MonitorCall, type Registration } from './monitor'
+import { ItemMonitor, type Monitor, type Registration } from './monitor'
 import type { Settings } from './options'
 import {
   explainItem,
@@ -27,7 +27,9 @@ import {
   type WriteOptions,
   type WriteResult,
 } from './plan'
+import type { Send } from './plan-request'
 import { checkAllWritten, valueGiven } from './results'
+import type { OpenCall } from './turns'
 import { refuseAmbiguousXy } from './xy-notation'
 
 const WRITE_OPTIONS: OptionNames<WriteOptions> = { readModifyWrite: true, allOrNothing: true }
@@ -41,7 +43,7 @@ export interface ItemParts {
   readonly protocol: ClientProtocol<Head3e>
   readonly registration: Registration
   /** One call: all its requests share one deadline. @throws RequestError BAD_OPTION */
-  readonly call: (options: CallOptions | undefined) => MonitorCall<Head3e>
+  readonly call: (options: CallOptions | undefined) => OpenCall<Head3e>
   /** @throws RequestError NOT_PERMITTED */
   readonly permit: (effect: Exchange<Head3e, unknown>['effect'], title: string) => void
 }
@@ -117,7 +119,8 @@ export class ItemAccess {
       // Before anything is sent, also the reading of a word that a bit is changed in, or of the type of a label.
       permit('write', 'Writing')
       const opened = call(callOptions)
-      return plan instanceof MixedWrite ? plan.run(opened) : plan.run(opened.send)
+      const run = (send: Send<Head3e>) => (plan instanceof MixedWrite ? plan.run({ ...opened, send }) : plan.run(send))
+      return plan.changesBits ? opened.alone(run) : run(opened.send)
     }
     return {
       run: async (callOptions) => checkAllWritten(await runEach(callOptions)),

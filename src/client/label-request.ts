@@ -8,6 +8,7 @@ import type { LabelArea } from '../melsec/label-codec'
 import { limitsOf, requestBytes } from '../melsec/limit'
 import type { Profile } from '../melsec/profile'
 import { about } from './about'
+import { stopsOrder } from './attempt'
 import type { AskedLabel } from './label-item'
 import type { LabelContent } from './label-value'
 
@@ -140,7 +141,7 @@ export class LabelRequests {
       const subjects = some.map(({ asked }) => ({ item: asked.address.name }))
       const told = error instanceof EndCodeError ? about(error, subjects) : error
       for (const { asked } of some) errors.set(asked, told)
-      if (stops || error.outcome === 'unknown') before ??= error
+      if (stops || stopsOrder(error)) before ??= error
     }
     return errors
   }

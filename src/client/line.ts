@@ -259,6 +259,9 @@ export class Line<Head> {
         this.#silent = 0
         counters.add('stale')
         return
+      case 'stray':
+        counters.add('stale')
+        return
       case 'renew':
         this.#transport?.renew()
         return

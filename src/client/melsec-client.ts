@@ -34,7 +34,7 @@ import { ItemAccess } from './item-access'
 import type { ItemExplanation } from './label-explain'
 import { type Labels, labelsOf } from './labels'
 import { Listeners } from './listeners'
-import { type Monitor, type MonitorCall, Registration } from './monitor'
+import { type Monitor, Registration } from './monitor'
 import {
   EXCHANGE_OPTIONS,
   explainRequest,
@@ -46,13 +46,14 @@ import {
 import { checkOnDemand, type Unsolicited, unsolicitedOf } from './on-demand'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import { protocolOf, transportOf } from './parts'
-import { notPermitted, overUdp } from './permission'
+import { notPermitted, optionsOfMany, overUdp } from './permission'
 import type { Item, ReadResult, WriteOptions, WriteResult } from './plan'
 import { probesOf } from './probes'
 import { RemotePassword } from './remote-password'
 import { byName, checkAllWritten, entriesOf, plainValue } from './results'
 import type { Statistics } from './statistics'
 import { Tracer } from './trace'
+import { type OpenCall, WriteTurns } from './turns'
 
 /** Node.js before 20.5 has no such symbol; programs for it bring one of this name. */
 const asyncDispose: typeof Symbol.asyncDispose = Symbol.asyncDispose ?? Symbol.for('Symbol.asyncDispose')
@@ -84,6 +85,7 @@ export class MelsecClient {
   readonly #tracer: Tracer
   readonly #registration: Registration
   readonly #send: Send
+  readonly #turns = new WriteTurns()
   readonly #items: ItemAccess
   readonly #files: FileAccess
   readonly #password: RemotePassword
@@ -318,16 +320,13 @@ export class MelsecClient {
   }
 
   /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
-  #call(options: CallOptions | undefined): MonitorCall<Head3e> {
+  #call(options: CallOptions | undefined): OpenCall<Head3e> {
     const { clock, timeout } = this.#settings
     const deadline = new Deadline(clock, callOptionsOf(options), timeout)
-    return {
-      deadline,
-      send: (exchange) => {
-        this.#permit(exchange.effect, exchange.title)
-        return this.#connection.request(exchange, deadline.options(exchange.title))
-      },
-    }
+    return this.#turns.open(deadline, async (exchange) => {
+      this.#permit(exchange.effect, exchange.title)
+      return this.#connection.request(exchange, deadline.options(exchange.title))
+    })
   }
 
   /** What reading the item will touch, for people and editors. @throws RequestError when it is not an item. */
@@ -349,7 +348,8 @@ export class MelsecClient {
     second?: WriteValue | (CallOptions & WriteOptions),
     third?: CallOptions & WriteOptions,
   ): Promise<void> {
-    if (!isItem(target)) return this.writeValues(target, second as (CallOptions & WriteOptions) | undefined)
+    if (!isItem(target))
+      return this.writeValues(target, optionsOfMany(second as (CallOptions & WriteOptions) | undefined, third))
     const [result] = await this.#items.write([{ item: target, value: second as WriteValue }], third)
     if (result?.ok === false) throw result.error
   }

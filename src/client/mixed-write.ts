@@ -5,7 +5,7 @@
  * made into words, before anything is written. Entries of one kind that follow one another go out together.
  */
 import { ClosedError, type PlcError } from '../errors'
-import { attempt, isFine } from './attempt'
+import { attempt, isFine, stopsOrder } from './attempt'
 import { describeLabelTypes, describeLabelWrite } from './label-describe'
 import { type AnyItem, isLabel, type LabelInItems } from './label-in-items'
 import { type LabelRequests, type LabelWrite, notWritten } from './label-request'
@@ -54,6 +54,10 @@ export class MixedWrite<Head> {
     this.#options = options
     this.#checkDevices()
     this.#steps = this.#stepsOf(this.#labelSteps())
+  }
+
+  get changesBits(): boolean {
+    return this.#steps.some((step) => 'plan' in step && step.plan.changesBits)
   }
 
   get #stops(): boolean {
@@ -143,7 +147,7 @@ export class MixedWrite<Head> {
   }
 
   async #perform(step: Step<Head>, { call, requests, writes, errors }: Writing<Head>): Promise<void> {
-    const cause = [...errors.values()].find(({ outcome }) => this.#stops || outcome === 'unknown')
+    const cause = [...errors.values()].find((error) => this.#stops || stopsOrder(error))
     if (cause !== undefined) {
       for (const entry of step.entries) if (!errors.has(entry)) errors.set(entry, notWritten(cause))
       return

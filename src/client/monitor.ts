@@ -14,6 +14,7 @@ import { Areas, piecesOf, readLayout } from './plan-layout'
 import { planRead, type ReadPlan, type ReadResult } from './plan-read'
 import { type PreparedRead, prepareRead, type Send } from './plan-request'
 import { type Place, placeOf, valueAt } from './plan-value'
+import type { OpenCall } from './turns'
 
 /** What a monitor needs of its client. */
 export interface MonitorOptions<Head> extends AddressOptions {
@@ -26,10 +27,7 @@ export interface MonitorOptions<Head> extends AddressOptions {
   readonly unusable?: string | undefined
 }
 
-export interface MonitorCall<Head> {
-  readonly deadline: Deadline
-  readonly send: Send<Head>
-}
+export type MonitorCall<Head> = Pick<OpenCall<Head>, 'deadline' | 'send'>
 
 /**
  * What the PLC remembers of the connection: one registration at a time, forgotten with the connection. The monitors

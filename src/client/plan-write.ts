@@ -8,6 +8,7 @@ import { explainEndCode } from '../melsec/end-code'
 import { addressOptionsOf, type Profile } from '../melsec/profile'
 import type { ClientProtocol } from '../melsec/protocol'
 import { about } from './about'
+import { stopsOrder } from './attempt'
 import type { ParsedItem, RefusedItem } from './item'
 import { Areas } from './plan-layout'
 import { describePrepared, type PlanDescription, planText, type Send } from './plan-request'
@@ -71,6 +72,11 @@ export class WritePlan<Head> {
     if (options.allOrNothing === true) this.#refuseAll()
     this.#units = units.filter(({ entry }) => !this.#errors.has(entry))
     this.#steps = batchesOf(protocol, this.#units).map((batch) => prepareWrite(this.#context, batch))
+  }
+
+  /** Whether words are read, changed and written back: nobody else may write meanwhile. */
+  get changesBits(): boolean {
+    return this.#units.some(({ content }) => content.kind === 'masked')
   }
 
   #unitsOf({ item, value }: WriteEntry, index: number): WriteUnit[] {
@@ -220,8 +226,7 @@ class Run<Head> {
     } catch (error) {
       if (error instanceof EndCodeError) return error
       if (!(error instanceof PlcError)) throw error
-      // A request that was not permitted says nothing about the next one; everything else is about the connection.
-      if (!(error instanceof RequestError)) this.#stopped = error
+      if (stopsOrder(error)) this.#stopped = error
       this.fail(step, error)
       return undefined
     }

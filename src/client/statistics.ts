@@ -26,7 +26,7 @@ export interface Statistics {
   readonly aborted: number
   /** Times that the PLC sent what the protocol does not allow. */
   readonly protocolErrors: number
-  /** Answers to requests that had been given up. */
+  /** Answers to requests that had been given up, and what came before the self test that proves a fixed port. */
   readonly stale: number
   /** Frames that the PLC sent unasked, whether they could be read or not. */
   readonly unsolicited: number

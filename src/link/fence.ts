@@ -21,7 +21,7 @@ export interface Echo<Head> {
 export interface FenceOptions<Head> {
   /** A new question each time: a pattern that comes again proves nothing. */
   readonly ask: () => Echo<Head>
-  /** ms after which it is asked once more, because datagrams get lost; doubled each time, because a PLC may be slow. */
+  /** ms after which it is asked once more, because datagrams get lost; doubled as long as nothing comes, because a PLC may be slow. */
   readonly patience: number
   /**
    * The frames have serial numbers: only at the beginning of a session an answer of an earlier program, which may have
@@ -33,7 +33,8 @@ export interface FenceOptions<Head> {
 /** Copies of an echo may come later; so many questions are known. */
 const REMEMBERED = 8
 /** Questions answered with something else after which a PLC counts as one that returns no self tests. */
-const ENOUGH = 2
+const ENOUGH = 3
+const ENOUGH_REFUSED = 2
 
 /** It outlives a session: an answer to a request of an earlier one can still come to the same port. */
 export class Fence<Head> {
@@ -43,6 +44,10 @@ export class Fence<Head> {
   #asked: Echo<Head>[] = []
   /** Answers to something else since then. */
   #strays = 0
+  /** Those of them with an end code. */
+  #refusals = 0
+  /** One answer, whatever it says, to each question so far. */
+  #inStep = true
   /** Whose answers prove nothing any more. */
   #former: Echo<Head>[] = []
   #askAgainAt = Number.NEGATIVE_INFINITY
@@ -90,19 +95,23 @@ export class Fence<Head> {
     if (onlyAtFirst && this.#asked.length > 0 && now >= this.#askAgainAt) this.#stand()
     if (this.#stands) return true
     if (this.#owed || this.#echoes === true) return false
-    // Its own answer to each question has had its time, and something else came.
-    const seemsToHaveNone = this.#asked.length >= ENOUGH && this.#strays >= this.#asked.length
-    if (seemsToHaveNone && now >= this.#askAgainAt) this.#echoes = false
+    // Each question was answered before the next one was asked, but not with its pattern, and its own answer has had its
+    // time. Late answers to something else hardly come in step with the questions; a refusal is the usual answer.
+    const enough = this.#refusals === this.#asked.length ? ENOUGH_REFUSED : ENOUGH
+    const inStep = this.#inStep && this.#strays === this.#asked.length
+    if (inStep && this.#asked.length >= enough && now >= this.#askAgainAt) this.#echoes = false
     return this.#echoes === false
   }
 
   /** The frame of the question, when it is time to ask, again or for the first time. */
   ask(now: number): Buffer | undefined {
     if (now < this.#askAgainAt) return undefined
+    this.#inStep &&= this.#strays === this.#asked.length
     const echo = this.#options.ask()
     this.#asked.push(echo)
     if (this.#asked.length > REMEMBERED) this.#asked.shift()
-    this.#askAgainAt = now + this.#options.patience * 2 ** (this.#asked.length - 1)
+    const unanswered = Math.max(0, this.#asked.length - 1 - this.#strays)
+    this.#askAgainAt = now + this.#options.patience * 2 ** unanswered
     return this.#framing.request.write(echo.head, 0, echo.body)
   }
 
@@ -118,13 +127,14 @@ export class Fence<Head> {
     )
     // Also to the program before: then it returns them.
     const kind = latest && this.#kindOf(latest, datagram)
-    if (known || kind !== undefined) this.#echoes = true
+    if (known || kind === 'own' || kind === 'another') this.#echoes = true
     if (kind === 'own') {
       this.#stand()
       return 'echo'
     }
     if (latest === undefined) return known ? 'stray' : undefined
     this.#strays += 1
+    if (kind === 'refusal') this.#refusals += 1
     return 'stray'
   }
 
@@ -139,15 +149,17 @@ export class Fence<Head> {
     this.#former = [...this.#former, ...this.#asked].slice(-2 * REMEMBERED)
     this.#asked = []
     this.#strays = 0
+    this.#refusals = 0
+    this.#inStep = true
     this.#askAgainAt = Number.NEGATIVE_INFINITY
   }
 
-  #kindOf(echo: Echo<Head>, datagram: Buffer): 'own' | 'another' | undefined {
+  #kindOf(echo: Echo<Head>, datagram: Buffer): 'own' | 'another' | 'refusal' | undefined {
     try {
       const scanned = this.#framing.response.scan(datagram, (head, soFar) => echo.responseLength(head, soFar))
       if (scanned === undefined || scanned.used !== datagram.length) return undefined
       if (this.#framing.mismatch(echo.head, scanned.frame.head) !== undefined) return undefined
-      return echo.read(scanned.frame)
+      return scanned.frame.endCode === 0 ? echo.read(scanned.frame) : 'refusal'
     } catch (error) {
       // Whatever it is, it is no answer to a self test.
       if (error instanceof PlcError) return undefined

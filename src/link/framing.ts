@@ -100,6 +100,8 @@ export type SessionEvent<Head, J extends Job<Head> = Job<Head>> =
   | { readonly kind: 'unsolicited'; readonly frame: RequestFrame<Head> }
   /** An answer to a request that was given up: thrown away. */
   | { readonly kind: 'stale'; readonly serial: number | undefined }
+  /** While a fence is asked for, an answer to anything else: thrown away. It does not show that the peer takes requests. */
+  | { readonly kind: 'stray' }
   /** The connection must be dropped: what arrives on it can no longer be attributed. */
   | { readonly kind: 'drop'; readonly error: PlcError }
   /** Datagrams without a serial number or a fence: the next request must leave from a new local port. */

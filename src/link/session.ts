@@ -73,7 +73,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   /** Set once the connection must go: nothing more is sent or attributed on it. */
   #dropped = false
 
-  /** `fence`: for datagrams without a serial number where the local port stays. */
+  /** `fence`: for datagrams where the local port stays. */
   constructor(framing: Framing<Head>, options: SessionOptions, fence?: Fence<Head>) {
     if (framing.correlation === 'order' && options.window !== 1) {
       throw new RequestError(
@@ -218,11 +218,11 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   }
 
   #whyUnsent({ deadline, allowance, needsNoProof }: J, waiting: number): Outcome<Head> {
-    if (this.#fence?.due !== undefined && needsNoProof !== true) return { kind: 'unproved' }
     // While it waited the peer answered others, only not soon enough; otherwise it is silent.
     const isAlive = allowance !== undefined && this.#answeredAt >= deadline - allowance
-    if (!isAlive) return { kind: 'timedOut', sent: false }
-    return { kind: 'tooLate', waiting, roundTrip: this.#roundTrips.usual }
+    if (isAlive) return { kind: 'tooLate', waiting, roundTrip: this.#roundTrips.usual }
+    if (this.#fence?.due !== undefined && needsNoProof !== true) return { kind: 'unproved' }
+    return { kind: 'timedOut', sent: false }
   }
 
   /** Whether its answer could be told from earlier ones; asks for the proof when it is due. */
@@ -291,7 +291,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   #isOfFence(datagram: Buffer): boolean {
     if (this.#fence === undefined || this.#framing.response.isUnsolicited?.(datagram) === true) return false
     const seen = this.#fence.look(datagram)
-    if (seen === 'stray') this.#events.push({ kind: 'stale', serial: undefined })
+    if (seen === 'stray') this.#events.push({ kind: 'stray' })
     return seen !== undefined
   }
 

@@ -69,6 +69,8 @@ export function told(session: TestSession): string[] {
         return `unsolicited ${event.frame.body.toString('latin1')}`
       case 'stale':
         return `stale ${event.serial ?? ''}`.trim()
+      case 'stray':
+        return 'stray'
       case 'drop':
         return `drop ${event.error.code}`
       case 'renew':

@@ -86,6 +86,8 @@ export interface NodeRedOptions {
 export interface NodeRed {
   /** The editor, e.g. http://127.0.0.1:41231/ */
   readonly url: string
+  /** The folder that was made for it and goes with it. */
+  readonly userDir: string | undefined
   /** Replaces the flows, as the editor's Deploy button does, and resolves when they run. */
   deploy(flow: readonly FlowNode[], type?: 'full' | 'flows' | 'nodes'): Promise<void>
   /** Hands a message to a node's input. */
@@ -230,7 +232,7 @@ class RunningNodeRed implements NodeRed {
   constructor(
     private readonly child: ChildProcess,
     /** Removed at the end. */
-    private readonly ownDir: string | undefined,
+    readonly userDir: string | undefined,
   ) {
     const collect = (chunk: Buffer): void => {
       this.#output = (this.#output + chunk.toString()).slice(-20_000)
@@ -340,7 +342,7 @@ class RunningNodeRed implements NodeRed {
   }
 
   async #removeFiles(): Promise<void> {
-    if (this.ownDir) await rm(this.ownDir, { recursive: true, force: true, maxRetries: 3 })
+    if (this.userDir) await rm(this.userDir, { recursive: true, force: true, maxRetries: 3 })
   }
 
   async #ask(action: string, argument: unknown): Promise<unknown> {
