@@ -197,6 +197,10 @@ export function measureLimit(limit: Limit, message: Measurable): number {
   if (limit.unit === 'bytes') return requestBytes(limit.command, limit.code, message)
   let sum = 0
   for (const [path, weight] of Object.entries(limit.sum)) {
+    // A number where characters belong is no count of them: told as one, a password typed as a number would be shown.
+    if (limit.unit === 'characters' && typeof message[path] !== 'string') {
+      throw new RequestError('BAD_MESSAGE', `${limit.command}: "${path}" must be a text.`, path)
+    }
     const size = sizeAt(message, path)
     if (size === undefined || !Number.isFinite(size)) {
       throw new RequestError('BAD_MESSAGE', `${limit.command}: "${path}" must be a number, a text or a list.`, path)

@@ -275,6 +275,9 @@ test('unlock and lock by request() need allowControl, and their length is checke
   const error = await rejection(allowed.request(commands.lock, { password: 'short' }))
   expect(error).toMatchObject({ code: 'OUT_OF_RANGE', outcome: 'notSent' })
   expect(error.message).not.toContain('short')
+  const number = await rejection(allowed.request(commands.unlock, { password: 12345678 as never }))
+  expect(number).toMatchObject({ code: 'BAD_MESSAGE', outcome: 'notSent' })
+  expect(number.message).not.toContain('12345678')
 })
 
 test('it is nowhere to be seen: options, errors, states, traces', async () => {
