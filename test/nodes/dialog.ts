@@ -17,18 +17,36 @@ export interface Editor {
 }
 
 export async function edit(page: Page, id: string): Promise<void> {
-  await page.evaluate((node) => {
-    const { RED } = globalThis as unknown as Editor
-    const found = RED.nodes.node(node)
-    if (node === 'plc') RED.editor.editConfig('', 'melsec-jw-connection', node)
-    else RED.editor.edit(found)
-  }, id)
-  await page.locator('.red-ui-tray-body .melsec-jw-form').last().waitFor()
+  const trays = await page.locator('.red-ui-tray').count()
+  const form = page.locator('.red-ui-tray-body .melsec-jw-form').last()
+  // The editor ignores the wish while it is still closing the dialog before, so it is repeated as long as none opens.
+  for (let tries = 1; ; tries += 1) {
+    await open(page, id, trays)
+    try {
+      await form.waitFor({ timeout: 3000 })
+      break
+    } catch (error) {
+      if (tries === 5) throw error
+    }
+  }
   // The tray slides in.
   await page.waitForFunction(() => {
     const tray = [...document.querySelectorAll('.red-ui-tray')].at(-1)
     return tray !== undefined && tray.getBoundingClientRect().right <= window.innerWidth + 1
   })
+}
+
+/** Asks for the dialog, unless one more than before is opening already. */
+function open(page: Page, id: string, before: number): Promise<void> {
+  return page.evaluate(
+    ([node, trays]) => {
+      const { RED } = globalThis as unknown as Editor
+      if (document.querySelectorAll('.red-ui-tray').length > trays) return
+      if (node === 'plc') RED.editor.editConfig('', 'melsec-jw-connection', node)
+      else RED.editor.edit(RED.nodes.node(node))
+    },
+    [id, before] as const,
+  )
 }
 
 export async function close(page: Page, button: 'ok' | 'cancel'): Promise<void> {
