@@ -5,10 +5,10 @@ import { nanosPerCall, row, title } from './measure.mjs'
 const require = createRequire(import.meta.url)
 const { decode, encode, field, readerOf, writerOf } = require('../dist/src/codec/codec.js')
 const { commands } = require('../dist/src/melsec/commands/commands.js')
-const { frame3e } = require('../dist/src/melsec/frame-3e.js')
+const { frame3e } = require('../dist/src/melsec/frame/slmp-frame.js')
 const { MelsecProtocol } = require('../dist/src/melsec/protocol.js')
-const { resolveProfile } = require('../dist/src/melsec/profile.js')
-const { ownStation } = require('../dist/src/melsec/route.js')
+const { resolveProfile } = require('../dist/src/melsec/profiles/profile.js')
+const { ownStation } = require('../dist/src/melsec/frame/route.js')
 
 const WORDS = 960
 const kinds = {

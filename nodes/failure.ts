@@ -1,5 +1,6 @@
 // What a node hands to done(): an error that Node-RED carries to Catch nodes without losing what the plant must know.
 
+import { hex } from '../src/basics/hex'
 import type { Language, PlcErrorCode } from '../src/index'
 import {
   ConnectionError,
@@ -154,21 +155,14 @@ function nameOf(title: string | undefined): keyof typeof commands | undefined {
 function refusedText(error: EndCodeError, { meaning, remedy }: Explanation, texts: Texts): string {
   const { endCode, abnormalCode, command } = error
   if (languageOf(texts) === 'en-US' || meaning === undefined || command === undefined) return error.message
+  // Codes of 1E frames have two digits, all others four.
   const digits = abnormalCode === undefined ? [endCode] : [endCode, abnormalCode]
-  const code = digits.map((number) => `${hex(number)}H`).join(', ')
+  const code = digits.map((number) => `${hex(number, number > 0xff ? 4 : 2)}H`).join(', ')
   const named = nameOf(command)
   const title = named === undefined ? command : texts(`command.${named}`)
   const text = texts('error.refused', { command: title, code, meaning, remedy: remedy ?? '' })
   const head = headOfError(error)
   return head === undefined ? text : `${head}: ${text}`
-}
-
-/** Codes of 1E frames have two digits, all others four. */
-function hex(code: number): string {
-  return code
-    .toString(16)
-    .toUpperCase()
-    .padStart(code > 0xff ? 4 : 2, '0')
 }
 
 function reasonOf(error: PlcError): { reason?: string } {

@@ -1,34 +1,10 @@
 /// <reference types="node" preserve="true" />
 // The public names. No code.
 
-export { headOfError, nameResults } from './client/about'
-export type { BufferMemory } from './client/buffer-memory'
-export type { CallOptions } from './client/call'
-export type {
-  ClientEvents,
-  Items,
-  ItemValue,
-  NumberArray,
-  OnDemand,
-  ReadPlan,
-  ReadValue,
-  UnsolicitedFrame,
-  WriteEntry,
-  WritePlan,
-  WriteValue,
-  WriteValues,
-} from './client/client-types'
-export type { ConnectionState } from './client/connection'
-export type {
-  ClearMode,
-  Control,
-  Identity,
-  IdentityWarning,
-  LatchClearOptions,
-  PauseOptions,
-  RunOptions,
-  StopOptions,
-} from './client/control'
+export type { CallOptions } from './client/connection/call'
+export type { ConnectionState } from './client/connection/connection'
+export type { RoundTrip, Statistics } from './client/connection/statistics'
+export type { ConnectionStateName } from './client/connection/supervisor'
 export type {
   CopyOptions,
   FileData,
@@ -39,8 +15,28 @@ export type {
   FileReadOptions,
   Files,
   FileWriteOptions,
-} from './client/files'
-export type { ItemExplanation, LabelExplanation } from './client/label-explain'
+} from './client/file/files'
+export { headOfError, nameResults } from './client/item/about'
+export {
+  formatItem,
+  type Item,
+  type ItemOptions,
+  type ParsedItem,
+  parseItem,
+  type RefusedItem,
+  tryParseItem,
+} from './client/item/item'
+export type {
+  Items,
+  ItemValue,
+  NumberArray,
+  ReadResult,
+  ReadValue,
+  WriteEntry,
+  WriteValue,
+  WriteValues,
+} from './client/item/item-value'
+export type { ItemExplanation, LabelExplanation } from './client/label/explain'
 export type {
   LabelFormat,
   LabelItem,
@@ -50,28 +46,28 @@ export type {
   Labels,
   LabelValue,
   LabelWriteResult,
-} from './client/labels'
-export { createMelsecClient, MelsecClient } from './client/melsec-client'
-export type { Monitor } from './client/monitor'
-export type { RequestExplanation } from './client/named-request'
-export type { MelsecClientOptions } from './client/options'
-export {
-  type DeviceExplanation,
-  formatItem,
-  type Item,
-  type ItemOptions,
-  type ParsedItem,
-  type PlanDescription,
-  parseItem,
-  type ReadResult,
-  type RefusedItem,
-  type RequestDescription,
-  tryParseItem,
-  type WriteOptions,
-} from './client/plan'
-export type { RoundTrip, Statistics } from './client/statistics'
-export type { ConnectionStateName } from './client/supervisor'
-export type { TraceEntry } from './client/trace'
+} from './client/label/labels'
+export type { BufferMemory } from './client/melsec/buffer-memory'
+export type { ClientEvents, OnDemand, UnsolicitedFrame } from './client/melsec/client-events'
+export type {
+  ClearMode,
+  Control,
+  Identity,
+  IdentityWarning,
+  LatchClearOptions,
+  PauseOptions,
+  RunOptions,
+  StopOptions,
+} from './client/melsec/control'
+export { createMelsecClient, MelsecClient } from './client/melsec/melsec-client'
+export type { RequestExplanation } from './client/melsec/named-request'
+export type { MelsecClientOptions } from './client/melsec/options'
+export type { TraceEntry } from './client/melsec/trace'
+export type { DeviceExplanation } from './client/plan/explain'
+export type { Monitor } from './client/plan/monitor'
+export type { ReadPlan, WritePlan } from './client/plan/plans'
+export type { PlanDescription, RequestDescription } from './client/plan/request'
+export type { WriteOptions } from './client/plan/write'
 export type { DataCode, Declaration, Effect, FieldDescription, MessageInput, MessageOf } from './codec/codec'
 export { describe as describeFields } from './codec/codec'
 export {
@@ -92,14 +88,20 @@ export {
   type WriteResult,
 } from './errors'
 export { explainJwFrame } from './jw/explain-frame'
-export { type ACompatibleCommandName, type ACompatibleCommands, aCompatibleCommands } from './melsec/a-compatible'
-export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/address'
-export type { RequestOf, ResponseOf } from './melsec/command'
-export { type CommandDescription, commandNamed, describeCommand } from './melsec/command-name'
+export {
+  type ACompatibleCommandName,
+  type ACompatibleCommands,
+  aCompatibleCommands,
+} from './melsec/a-compatible/commands'
+export type { RequestOf, ResponseOf } from './melsec/commands/command'
+export { type CommandDescription, commandNamed, describeCommand } from './melsec/commands/command-name'
 export { type CommandName, type Commands, commands } from './melsec/commands/commands'
+export { answerToJson, messageFromJson, messageToJson, type ToJsonOptions } from './melsec/commands/message-json'
 export { unsolicitedCommands } from './melsec/commands/on-demand'
-export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from './melsec/device'
-export type { Notation } from './melsec/device-json'
+export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/device/address'
+export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from './melsec/device/device'
+export type { DeviceForm } from './melsec/device/device-form'
+export type { Notation } from './melsec/device/json'
 export {
   type EndCodeExplanation,
   type ExplainOptions,
@@ -107,14 +109,13 @@ export {
   explainEndCode,
   type Language,
   languages,
-} from './melsec/end-code'
-export { explainFrame, formatExplanation } from './melsec/explain-frame'
+} from './melsec/end-codes/end-code'
+export { explainFrame, formatExplanation } from './melsec/explain/frame'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
-export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file-time'
-export { answerToJson, messageFromJson, messageToJson, type ToJsonOptions } from './melsec/message-json'
+export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file/time'
+export { moduleIoNumbers, type Route } from './melsec/frame/route'
 export { modelCodes, modelOf } from './melsec/model-code'
 export {
-  type DeviceForm,
   type Drive,
   type FileFacts,
   type FrameName,
@@ -122,13 +123,11 @@ export {
   type ProfileId,
   type ProfileOverrides,
   profileIds,
-  profiles,
-  resolveProfile,
   type TransportName,
-} from './melsec/profile'
+} from './melsec/profiles/profile'
+export { profiles, resolveProfile } from './melsec/profiles/profiles'
 export type { ExchangeOptions } from './melsec/protocol'
 export { isPortLocked } from './melsec/remote-password'
-export { moduleIoNumbers, type Route } from './melsec/route'
 export * from './simulator/simulator'
 export type { Clock } from './transport/clock'
 export type { OpenTransport, Transport, TransportHandlers } from './transport/transport'

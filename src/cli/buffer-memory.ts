@@ -1,7 +1,9 @@
 // Buffer memory by Memory and Extend Unit: of the connected module itself, and of MELSEC-Q modules by their names.
+
 import { type Command, InvalidArgumentError, Option } from 'commander'
+import { hex } from '../basics/hex'
 import { type BufferMemory, type MelsecClient, type ModulePlace, RequestError } from '../index'
-import { type MakeCommand, newCommand, perform, type Run } from './command'
+import { type CommandRun, type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import { json, table } from './output'
@@ -23,7 +25,7 @@ interface Whose {
 const ownMemory: Whose = { title: () => 'the connected module', of: ({ memory }) => memory }
 
 const moduleMemory: Whose = {
-  title: ({ model, startIo }) => `${model} at ${hexadecimal(startIo ?? 0, 4)}`,
+  title: ({ model, startIo }) => `${model} at ${hex(startIo ?? 0, 4)}`,
   of: (client, { model = '', startIo = Number.NaN, slot0 }) => {
     const place: ModulePlace = { startIo, ...(slot0 === undefined ? {} : { slot0 }) }
     return client.module(model, place)
@@ -66,7 +68,7 @@ export const moduleCommand: MakeCommand = (run) =>
       ),
   )
 
-function make(run: Run, whose: Whose, command: Command): Command {
+function make(run: CommandRun, whose: Whose, command: Command): Command {
   command
     .argument('<action>', 'read or write')
     .argument('<address>', 'buffer memory address, decimal or 0x1F')
@@ -115,17 +117,7 @@ async function write(terminal: Terminal, whose: Whose, { at, words }: Asked, opt
 
 /** Address and word, decimal and hexadecimal: the manuals of modules use both. */
 function rowsOf(at: number, words: readonly number[]): string[][] {
-  return words.map((word, i) => [
-    String(at + i),
-    `(${hexadecimal(at + i, 4)}H)`,
-    '=',
-    String(word),
-    `(${hexadecimal(word, 4)}H)`,
-  ])
-}
-
-function hexadecimal(number: number, digits: number): string {
-  return number.toString(16).toUpperCase().padStart(digits, '0')
+  return words.map((word, i) => [String(at + i), `(${hex(at + i, 4)}H)`, '=', String(word), `(${hex(word, 4)}H)`])
 }
 
 function wholeNumber(text: string): number {

@@ -6,14 +6,14 @@ import { printError } from './output'
 import type { Terminal } from './terminal'
 
 /** One run of the command line. */
-export interface Run {
+export interface CommandRun {
   readonly terminal: Terminal
   /** Says what the process ends with. */
   exit(code: number): void
 }
 
 /** Adds a command to the program. */
-export type MakeCommand = (run: Run) => Command
+export type MakeCommand = (run: CommandRun) => Command
 
 /** A command with examples in its help. */
 export function newCommand(name: string, summary: string, examples: readonly string[]): Command {
@@ -23,7 +23,7 @@ export function newCommand(name: string, summary: string, examples: readonly str
 
 /** Runs a command: `work` gives the exit code, or throws what went wrong. */
 export async function perform(
-  run: Run,
+  run: CommandRun,
   options: { readonly json?: boolean },
   work: () => Promise<number>,
 ): Promise<void> {

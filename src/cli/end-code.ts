@@ -1,4 +1,5 @@
 // End codes as the manuals and GX Works write them.
+import { hex } from '../basics/hex'
 import { RequestError } from '../index'
 
 /**
@@ -17,5 +18,5 @@ export function endCodeOf(text: string): number {
 
 /** e.g. `C059H` */
 export function endCodeText(endCode: number): string {
-  return `${endCode.toString(16).toUpperCase().padStart(4, '0')}H`
+  return `${hex(endCode, 4)}H`
 }

@@ -1,3 +1,4 @@
+import { hex } from '../basics/hex'
 import { EndCodeError, type Identity, type MelsecClient, type PlcError, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, peerText, withClient } from './connection-options'
@@ -45,7 +46,7 @@ function show(terminal: Terminal, options: ConnectionOptions, client: MelsecClie
     table([
       ['PLC', linkText(options, client)],
       ['Model', model.trim() === '' ? 'not told' : model],
-      ['Model code', `${modelCode.toString(16).toUpperCase().padStart(4, '0')}H (${known})`],
+      ['Model code', `${hex(modelCode, 4)}H (${known})`],
       ...(series === undefined ? [] : [['Series', series]]),
       ...(profile === undefined ? [] : [['Profile', profileText(profile, client)]]),
       ['Round trip', roundTripText(roundTrip)],

@@ -1,4 +1,5 @@
 import { Option } from 'commander'
+import { hexPairs } from '../basics/hex'
 import { type MelsecClient, type OnDemand, PlcError, type UnsolicitedFrame, valueOfBytes } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import {
@@ -99,8 +100,7 @@ function wordsIn({ words, data }: OnDemand): string {
 }
 
 function hexIn(data: Buffer): string {
-  const digits = Array.from(data, (byte) => byte.toString(16).toUpperCase().padStart(2, '0'))
-  return `${data.length} ${data.length === 1 ? 'byte' : 'bytes'}: ${digits.join(' ')}`.trimEnd()
+  return `${data.length} ${data.length === 1 ? 'byte' : 'bytes'}: ${hexPairs(data)}`.trimEnd()
 }
 
 function textIn(data: Buffer, encoding: ListenOptions['encoding']): string {

@@ -1,7 +1,7 @@
 // The program with its commands: `melsec-jw`.
 import { Command, CommanderError } from 'commander'
 import { memoryCommand, moduleCommand } from './buffer-memory'
-import type { MakeCommand, Run } from './command'
+import type { CommandRun, MakeCommand } from './command'
 import { commandsCommand } from './commands'
 import { controlCommand } from './control'
 import { cpCommand } from './cp'
@@ -55,7 +55,7 @@ const DESCRIPTION =
 export async function runProgram(args: readonly string[], version: string, terminal: Terminal): Promise<number> {
   let exitCode: number = exitCodes.ok.code
   const program = new Command('melsec-jw').description(DESCRIPTION).version(version).addHelpText('after', exitCodeHelp)
-  const run: Run = {
+  const run: CommandRun = {
     terminal,
     exit: (code) => {
       exitCode = code

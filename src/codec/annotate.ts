@@ -1,4 +1,5 @@
 // A decoder that tells where each value stands: rows for traces and the frame decoder, from the same declarations.
+import { hex } from '../basics/hex'
 import { ProtocolError } from '../errors'
 import { asked, type Bag, type Context, countToRead, sizeIn } from './count'
 import type { Reader } from './cursor'
@@ -287,9 +288,4 @@ export function plainText(value: unknown): string {
   if (typeof value === 'string') return value === MASK ? value : JSON.stringify(value)
   if (typeof value === 'boolean') return value ? '1' : '0'
   return typeof value === 'object' ? JSON.stringify(value) : String(value)
-}
-
-/** Upper-case hexadecimal digits. */
-export function hex(value: number, digits: number): string {
-  return value.toString(16).toUpperCase().padStart(digits, '0')
 }

@@ -1,3 +1,4 @@
+import { hex } from '../basics/hex'
 import type { Reader, Width, Writer } from './cursor'
 import { failAt, Input, Output, refuseElement } from './cursor'
 
@@ -143,6 +144,6 @@ export class AsciiReader extends Input implements Reader {
 }
 
 function show(character: number): string {
-  const code = character.toString(16).toUpperCase().padStart(2, '0')
+  const code = hex(character, 2)
   return character > 0x20 && character < 0x7f ? `"${String.fromCharCode(character)}" (${code}H)` : `${code}H`
 }

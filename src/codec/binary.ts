@@ -1,3 +1,4 @@
+import { hex } from '../basics/hex'
 import type { Reader, Width, Writer } from './cursor'
 import { failAt, Input, Output, refuseElement } from './cursor'
 
@@ -96,7 +97,7 @@ export class BinaryReader extends Input implements Reader {
     const values = new Array<boolean>(count)
     for (let i = 0; i < size; i++) {
       const pair = buffer[start + i] as number
-      if ((pair & 0xee) !== 0) failAt('BAD_FIELD', start + i, buffer, `a bit is 0 or 1, found ${hex(pair)}`)
+      if ((pair & 0xee) !== 0) failAt('BAD_FIELD', start + i, buffer, `a bit is 0 or 1, found ${hex(pair, 2)}`)
       values[2 * i] = (pair & 0x10) !== 0
       if (2 * i + 1 < count) values[2 * i + 1] = (pair & 1) !== 0
       // An odd count leaves the last low nibble unused; the manuals fix it to 0, so anything else is not our answer.
@@ -109,8 +110,4 @@ export class BinaryReader extends Input implements Reader {
     const start = this.need(count)
     return Buffer.from(this.buffer.subarray(start, start + count))
   }
-}
-
-function hex(byte: number): string {
-  return byte.toString(16).toUpperCase().padStart(2, '0')
 }

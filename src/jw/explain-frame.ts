@@ -1,5 +1,7 @@
 // A Sharp JW message in words, field by field.
-import { type AnnotatedRow, annotate, hex, type Leaf, plainText, showBytes } from '../codec/annotate'
+
+import { hex } from '../basics/hex'
+import { type AnnotatedRow, annotate, type Leaf, plainText, showBytes } from '../codec/annotate'
 import { field, type Shape } from '../codec/codec'
 import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../codec/explanation'
 import type { NamedCommand } from '../link/link'

@@ -1,3 +1,4 @@
+import { hex } from '../basics/hex'
 import { EndCodeError } from '../errors'
 import { HeadProtocol } from '../link/link'
 import { jwCommands } from './commands'
@@ -16,7 +17,7 @@ export function jwProtocol(options: JwFrameOptions = {}): HeadProtocol<JwHead> {
     headOf: (command) => ({ command: command.code }),
     codeOf: (head) => head.command,
     refusal: (command, frame) => {
-      const code = frame.endCode.toString(16).toUpperCase().padStart(2, '0')
+      const code = hex(frame.endCode, 2)
       return new EndCodeError(frame.endCode, `${command.title} was refused with result code ${code}H.`, {
         command: command.title,
       })

@@ -1,5 +1,6 @@
 // A protocol whose command number stands in the frame's head and whose requests carry no length: MELSEC 1E and
 // Sharp JW. Frames, commands and device codes differ; how they go together is the same.
+import { hex } from '../basics/hex'
 import {
   type Context,
   type DataCode,
@@ -86,10 +87,9 @@ export class HeadProtocol<Head> {
   #checkCommand(command: NamedCommand, head: Head): void {
     const answered = this.#parts.codeOf(head)
     if (answered === command.code) return
-    const hex = (code: number) => code.toString(16).toUpperCase().padStart(2, '0')
     throw new ProtocolError(
       'ECHO_MISMATCH',
-      `The answer is to command ${hex(answered)}H, asked was ${hex(command.code)}H.`,
+      `The answer is to command ${hex(answered, 2)}H, asked was ${hex(command.code, 2)}H.`,
     )
   }
 

@@ -1,6 +1,6 @@
 // Model codes that Read Type Name (0101) answers: SLMP reference manual 5.6 and FX5 communication manual 38.3.
 // The manuals say: identify a CPU by this code, not by the model name.
-import type { ProfileId } from './profile'
+import type { ProfileId } from './profiles/profile'
 
 export type Series = 'iQ-R' | 'iQ-F' | 'iQ-L' | 'Q' | 'QS' | 'L' | 'MELIPC' | 'CC-Link IE Field'
 

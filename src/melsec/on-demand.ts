@@ -1,4 +1,5 @@
 // On-demand as a body: command, subcommand and data, from both sides (SLMP reference manual 5.11).
+import { hex } from '../basics/hex'
 import { type DataCode, decode, encode, readerOf, type Shape, writerOf } from '../codec/codec'
 import { unsolicitedCommands } from './commands/on-demand'
 
@@ -39,5 +40,5 @@ export function writeOnDemand(code: DataCode, data: Uint8Array, reserved: Shape 
 }
 
 function named(code: number): string {
-  return `command ${code.toString(16).toUpperCase().padStart(4, '0')}H`
+  return `command ${hex(code, 4)}H`
 }

@@ -1,18 +1,20 @@
 // The SLMP command set in a frame: encodes requests and reads answers, and the same from the PLC's side.
 // The frames differ in their head, and in what stands around the data (BodyLayout): one class serves all of them.
+import { hex } from '../basics/hex'
 import { type Context, type DataCode, decode, encode, measure, type Reader, readerOf, writerOf } from '../codec/codec'
 import { EndCodeError, ProtocolError, RequestError } from '../errors'
 import type { Exchange, Framing, RequestFrame, ResponseFrame } from '../link/link'
-import { type BodyLayout, commandFields, type ErrorInformation, plainBody } from './body'
-import type { Command, RequestOf, ResponseOf } from './command'
+import type { Command, RequestOf, ResponseOf } from './commands/command'
 import { type CommandName, commands } from './commands/commands'
-import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device-codec'
-import { devicesOf } from './device-uses'
-import { explainEndCode } from './end-code'
-import { chooseForm, codecBits, FORM_BITS, findCommand, subcommandOf } from './form'
-import { checkLimits } from './limit'
-import type { DeviceForm, Profile } from './profile'
-import { describeRoute } from './route'
+import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device/codec'
+import type { DeviceForm } from './device/device-form'
+import { chooseForm, codecBits, FORM_BITS, findCommand, subcommandOf } from './device/form'
+import { checkLimits } from './device/limit'
+import { devicesOf } from './device/uses'
+import { explainEndCode } from './end-codes/end-code'
+import { type BodyLayout, commandFields, type ErrorInformation, plainBody } from './frame/body'
+import { describeRoute } from './frame/route'
+import type { Profile } from './profiles/profile'
 import { checkTarget } from './target'
 
 type Bag = Readonly<Record<string, unknown>>
@@ -225,7 +227,7 @@ export class MelsecProtocol<Head> {
     if (information !== undefined && (information.command !== command.code || information.subcommand !== subcommand)) {
       throw new ProtocolError(
         'ECHO_MISMATCH',
-        `The answer with end code ${hex4(frame.endCode)} is about ${codes(information)}, not ${codes({ command: command.code, subcommand })}.`,
+        `The answer with end code ${hex(frame.endCode, 4)} is about ${codes(information)}, not ${codes({ command: command.code, subcommand })}.`,
       )
     }
     const text = explainEndCode(frame.endCode, { command: command.name as CommandName })
@@ -234,7 +236,7 @@ export class MelsecProtocol<Head> {
     const known = text === undefined ? 'No text is known for this code.' : `${meaning} ${text.remedy}`
     return new EndCodeError(
       frame.endCode,
-      `${command.title} was refused with end code ${hex4(frame.endCode)}: ${known}${station === undefined ? '' : ` (Reported by ${station}.)`}`,
+      `${command.title} was refused with end code ${hex(frame.endCode, 4)}: ${known}${station === undefined ? '' : ` (Reported by ${station}.)`}`,
       {
         command: command.title,
         ...(station === undefined ? {} : { station }),
@@ -295,9 +297,5 @@ export class MelsecProtocol<Head> {
 }
 
 function codes({ command, subcommand }: { readonly command: number; readonly subcommand: number }): string {
-  return `command ${hex4(command)}, subcommand ${hex4(subcommand)}`
-}
-
-function hex4(value: number): string {
-  return value.toString(16).toUpperCase().padStart(4, '0')
+  return `command ${hex(command, 4)}, subcommand ${hex(subcommand, 4)}`
 }

@@ -1,7 +1,7 @@
 // Facts about the remote password that both sides need (SLMP reference manual 5.7, FX5 communication manual 13.2, 38.6).
 import type { EndCodeError } from '../errors'
-import { limitsOf } from './limit'
-import { lackOf, type Profile } from './profile'
+import { limitsOf } from './device/limit'
+import { lackOf, type Profile } from './profiles/profile'
 
 const PRINTABLE = /^[\x20-\x7e]*$/
 

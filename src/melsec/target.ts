@@ -1,9 +1,9 @@
 // Targets of commands, and drives of file commands, against the profile, before anything is sent.
-import { hex } from '../codec/annotate'
+import { hex } from '../basics/hex'
 import { RequestError } from '../errors'
-import type { Command } from './command'
-import { driveNumber } from './file-codec'
-import type { Profile } from './profile'
+import type { Command } from './commands/command'
+import { driveNumber } from './file/codec'
+import type { Profile } from './profiles/profile'
 
 /**
  * Refuses what this family cannot carry out: at this module, or on this drive.

@@ -5,8 +5,8 @@
 import { type DataCode, writerOf } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { HeadProtocol, NamedCommand, RequestFrame } from '../link/link'
-import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-compatible'
-import { aCompatibleProtocol } from '../melsec/a-compatible-protocol'
+import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-compatible/commands'
+import { aCompatibleProtocol } from '../melsec/a-compatible/protocol'
 import {
   type ACompatibleFamily,
   type ACompatibleFamilyId,
@@ -17,11 +17,11 @@ import {
   fromFrame,
   fx5Windows,
   type OddBits,
-} from '../melsec/a-compatible-rules'
+} from '../melsec/a-compatible/rules'
 import type { CommandName } from '../melsec/commands/commands'
-import type { DeviceAddress } from '../melsec/device'
-import { type Head1e, mayEndWithZero, zeroBehind } from '../melsec/frame-1e'
-import type { Profile } from '../melsec/profile'
+import type { DeviceAddress } from '../melsec/device/device'
+import { type Head1e, mayEndWithZero, zeroBehind } from '../melsec/frame/frame-1e'
+import type { Profile } from '../melsec/profiles/profile'
 import { Refusal } from './refusal'
 
 type Bag = Readonly<Record<string, unknown>>

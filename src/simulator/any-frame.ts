@@ -2,9 +2,9 @@
 import { type DataCode, failAt, uintAt } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { BodyLength, Framing, RequestFrame, Scanned } from '../link/link'
-import { frame1e, type Head1e } from '../melsec/frame-1e'
-import { frame3e, type Head3e, type SlmpFraming } from '../melsec/frame-3e'
-import { type FrameName, frameFacts, type SlmpFrameName } from '../melsec/frames'
+import { frame1e, type Head1e } from '../melsec/frame/frame-1e'
+import { type FrameName, frameFacts, type SlmpFrameName } from '../melsec/frame/frames'
+import { frame3e, type Head3e, type SlmpFraming } from '../melsec/frame/slmp-frame'
 
 /** A head that says in which frame it came, so that the answer goes out in the same one. */
 export type AnyHead =

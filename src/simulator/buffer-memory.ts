@@ -1,7 +1,7 @@
 // Buffer memory of the simulated port and of MELSEC-Q modules, as Memory and Extend Unit reach it.
 import { RequestError } from '../errors'
 import { byteAddressOf, type ExtendUnit, extendUnitOf } from '../melsec/extend-unit'
-import type { Profile } from '../melsec/profile'
+import type { Profile } from '../melsec/profiles/profile'
 import type { DeviceMemory, ExtensionMemory } from './memory'
 import { furtherRefusals, Refusal } from './refusal'
 

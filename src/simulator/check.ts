@@ -1,12 +1,12 @@
 // What a PLC refuses before it carries a request out: commands it lacks, limits, devices. From the profile's data.
 import type { DataCode } from '../codec/codec'
-import { deviceInfo } from '../melsec/device'
-import { accessProblem } from '../melsec/device-access'
-import { devicesOf, type FoundDevice } from '../melsec/device-uses'
-import { brokenLimit } from '../melsec/limit'
-import { exclusionOf, lackOf, type Profile } from '../melsec/profile'
+import { accessProblem } from '../melsec/device/access'
+import { deviceInfo } from '../melsec/device/device'
+import { brokenLimit } from '../melsec/device/limit'
+import { devicesOf, type FoundDevice } from '../melsec/device/uses'
+import { isConnectedStation, type Route, stationText } from '../melsec/frame/route'
+import { exclusionOf, lackOf, type Profile } from '../melsec/profiles/profile'
 import type { ReceivedRequest } from '../melsec/protocol'
-import { isConnectedStation, type Route, stationText } from '../melsec/route'
 import { furtherRefusals, Refusal, requestErrors } from './refusal'
 
 /** @throws Refusal with the end code a PLC of this family gives. */

@@ -1,7 +1,7 @@
 // RUN, STOP and PAUSE of the simulated CPU: its switch, and who holds it by remote control
 // (SLMP reference manual 5.6).
 import { RequestError } from '../errors'
-import type { Profile } from '../melsec/profile'
+import type { Profile } from '../melsec/profiles/profile'
 import { Refusal, requestErrors } from './refusal'
 
 export type CpuState = 'RUN' | 'STOP' | 'PAUSE'

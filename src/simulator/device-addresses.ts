@@ -1,6 +1,7 @@
 // The addresses that the instruction ADRSET stores for indirect specification (`@D0`). How a CPU codes a device into 32
 // bits is in no manual, so these are the simulator's own: numbers without a meaning, valid for the one that gave them.
-import type { DeviceAddress, DeviceName } from '../melsec/device'
+import { hex } from '../basics/hex'
+import type { DeviceAddress, DeviceName } from '../melsec/device/device'
 import { Refusal, requestErrors } from './refusal'
 
 /** Neither 0, which a register holds before the program ran, nor a small number that a wrong program may leave there. */
@@ -24,7 +25,7 @@ export class DeviceAddresses {
   deviceAt(address: number): DeviceAddress {
     const found = this.#devices[address - FIRST]
     if (found !== undefined) return found
-    const shown = address.toString(16).toUpperCase().padStart(8, '0')
+    const shown = hex(address, 8)
     throw new Refusal(requestErrors.content, `indirect specification: ${shown}H is no address that ADRSET has stored`)
   }
 }

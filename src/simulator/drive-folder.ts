@@ -3,7 +3,7 @@
 import * as fs from 'node:fs'
 import { join } from 'node:path'
 import { RequestError } from '../errors'
-import type { FileTime } from '../melsec/file-time'
+import type { FileTime } from '../melsec/file/time'
 import { type Drive, type DriveEntry, type DrivePath, isPlainName } from './drive'
 import { fileClock, msOf } from './file-clock'
 

@@ -1,5 +1,5 @@
 // A memory with files of the simulated PLC, in this program's own memory. Names do not distinguish capital letters.
-import type { FileTime } from '../melsec/file-time'
+import type { FileTime } from '../melsec/file/time'
 
 /** A file or directory as a list of files has it. */
 export interface DriveEntry {

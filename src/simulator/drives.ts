@@ -1,36 +1,11 @@
 // The drives of a simulated PLC: what a program says they hold, and what they hold when it says nothing.
 import { RequestError } from '../errors'
-import { type FileTime, isFileTime } from '../melsec/file-time'
-import type { Profile } from '../melsec/profile'
+import { type FileTime, isFileTime } from '../melsec/file/time'
+import type { Profile } from '../melsec/profiles/profile'
 import { type Drive, type DrivePath, keyOf, MemoryDrive, pathOf } from './drive'
 import { FolderDrive } from './drive-folder'
+import type { SimulatedDrive, SimulatedDrives, SimulatedFile } from './simulated-drive'
 import { usualFiles } from './usual-files'
-
-/** A file of a simulated drive. */
-export interface SimulatedFile {
-  /** Text is written in UTF-8. */
-  readonly data: string | Uint8Array
-  readonly readOnly?: boolean
-  /** Default: none. */
-  readonly password?: string
-  /** Default: when the simulator was made. */
-  readonly modified?: FileTime
-}
-
-/** A memory with files. Either in this program's memory, with `files`, or a `folder` of this computer. */
-export interface SimulatedDrive {
-  /** By path, e.g. `LINE.CSV` or `LOG\\LINE.CSV`; only the content, or more. Default: a few, to look at. */
-  readonly files?: Readonly<Record<string, string | Uint8Array | SimulatedFile>>
-  /** Clients can read and change what is in it, and nothing else: no name and no link leads out of it. */
-  readonly folder?: string
-  /** Bytes that fit. Default 4 MiB. */
-  readonly capacity?: number
-  /** System protection of the CPU, or the LOCK switch of a card. Default false. */
-  readonly writeProtected?: boolean
-}
-
-/** By drive number; `false`: there is none, e.g. no card. Drives that are not named have a few files to look at. */
-export type SimulatedDrives = Readonly<Record<number, SimulatedDrive | false>>
 
 /** A drive as the file commands find it. */
 export interface MountedDrive {

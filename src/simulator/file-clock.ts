@@ -1,5 +1,5 @@
 // The clock of the simulated PLC as files keep it: local time, in steps of two seconds, from 1980 to 2107.
-import { type FileTime, fileTimeOf } from '../melsec/file-time'
+import { type FileTime, fileTimeOf } from '../melsec/file/time'
 
 /** What a clock outside of these years shows. @param ms since 1970 */
 export function fileClock(ms: number): FileTime {

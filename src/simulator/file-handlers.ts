@@ -1,11 +1,11 @@
 // What the simulated PLC answers to file commands.
-import { attributeNumber } from '../melsec/file-attribute'
-import { FORM_FILE_UTF16 } from '../melsec/file-codec'
-import { isShortName } from '../melsec/file-name'
+import { attributeNumber } from '../melsec/file/attribute'
+import { FORM_FILE_UTF16 } from '../melsec/file/codec'
+import { isShortName } from '../melsec/file/name'
 import type { fileCommandNames } from '../melsec/profiles/files'
 import type { DriveEntry } from './drive'
 import type { Files } from './files'
-import type { Handler } from './handlers'
+import type { Handler } from './handler'
 
 type FileCommand = (typeof fileCommandNames)[number]
 

@@ -1,10 +1,10 @@
 // Files of the simulated PLC: what the file commands do, in which order they must come, and what is refused
 // (SLMP reference manual 5.8).
 
-import type { FileTime } from '../melsec/file-time'
-import { isFileTime } from '../melsec/file-time'
-import type { Profile } from '../melsec/profile'
-import { isNeverInPlace, isProjectFile } from '../melsec/project-file'
+import { isNeverInPlace, isProjectFile } from '../melsec/file/project-file'
+import type { FileTime } from '../melsec/file/time'
+import { isFileTime } from '../melsec/file/time'
+import type { Profile } from '../melsec/profiles/profile'
 import type { CpuState } from './cpu'
 import { type DriveEntry, type DrivePath, keyOf, pathOf } from './drive'
 import type { MountedDrive } from './drives'

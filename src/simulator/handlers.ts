@@ -1,54 +1,9 @@
-// What the simulated PLC answers: one handler per declared command, so that a command without an answer does not
-// compile.
-import type { MessageInput, MessageOf } from '../codec/codec'
-import type { CommandName, Commands } from '../melsec/commands/commands'
-import type { DeviceAddress } from '../melsec/device'
-import type { Profile } from '../melsec/profile'
-import type { ExtendUnits, OwnBuffer } from './buffer-memory'
-import type { Cpu } from './cpu'
-import type { ErrorLog } from './error-log'
+import type { CommandName } from '../melsec/commands/commands'
+import type { DeviceAddress } from '../melsec/device/device'
 import { fileHandlers } from './file-handlers'
-import type { Files } from './files'
-import type { LabelTable } from './labels'
+import type { Handler, RandomDevices } from './handler'
 import type { AccessUnit, DeviceMemory } from './memory'
-import type { PortLock } from './port-lock'
 import { Refusal } from './refusal'
-
-type RandomDevices = MessageOf<Commands['entryMonitorDevice']['request']>
-
-/** Who asks, and what the PLC remembers of them. */
-export interface Caller {
-  /** External device, as remote control tells them apart. */
-  readonly owner: string
-  /** Entry Monitor Device of this connection. */
-  monitored: RandomDevices | undefined
-  /** Remote password of this connection. */
-  readonly lock: PortLock
-}
-
-/** What a handler works on. */
-export interface Call {
-  readonly profile: Profile
-  readonly memory: DeviceMemory
-  readonly cpu: Cpu
-  readonly errors: ErrorLog
-  readonly buffer: OwnBuffer
-  readonly extendUnits: ExtendUnits
-  readonly labels: LabelTable
-  readonly files: Files
-  /** Model name, padded to 16 characters, and model code. */
-  readonly model: { readonly model: string; readonly modelCode: number }
-  readonly caller: Caller
-  /** Starts the PLC again; everybody is disconnected. */
-  readonly restart: () => void
-}
-
-/** The response data to a request. Throws `Refusal` for an end code. */
-export type Handler<N extends CommandName> = (
-  message: MessageOf<Commands[N]['request']>,
-  call: Call,
-  subcommand: number,
-) => MessageInput<Commands[N]['response']>
 
 const FORCED = 3
 

@@ -1,5 +1,6 @@
 // Global labels of the simulated PLC, with "Access from External Device" ticked: a table by name.
 import { RequestError } from '../errors'
+import type { LabelArea } from '../melsec/label/codec'
 import {
   BIT_TYPE_ID,
   expandLabel,
@@ -7,8 +8,7 @@ import {
   type LabelDataType,
   labelDataTypes,
   parseLabel,
-} from '../melsec/label'
-import type { LabelArea } from '../melsec/label-codec'
+} from '../melsec/label/label'
 import { decodeValue, encodeValue, type PlcValue, parseType, type ValueType } from '../value/value'
 import { Refusal, requestErrors } from './refusal'
 

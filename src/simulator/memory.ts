@@ -1,6 +1,7 @@
 // Device memory of the simulated PLC, with the ranges of its profile.
-import { type DeviceAddress, type DeviceExtension, type DeviceName, deviceInfo, devices } from '../melsec/device'
-import { type Profile, profiles } from '../melsec/profile'
+import { type DeviceAddress, type DeviceExtension, type DeviceName, deviceInfo, devices } from '../melsec/device/device'
+import type { Profile } from '../melsec/profiles/profile'
+import { profiles } from '../melsec/profiles/profiles'
 import { DeviceAddresses } from './device-addresses'
 import { type FurtherRefusals, furtherRefusals, Refusal } from './refusal'
 import {

@@ -2,10 +2,10 @@
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import { bytesOfWords } from '../melsec/commands/on-demand'
-import type { Head3e } from '../melsec/frame-3e'
+import { ownStation } from '../melsec/frame/route'
+import type { Head3e } from '../melsec/frame/slmp-frame'
 import { writeOnDemand } from '../melsec/on-demand'
-import type { FrameName } from '../melsec/profile'
-import { ownStation } from '../melsec/route'
+import type { FrameName } from '../melsec/profiles/profile'
 import type { AnyHead } from './any-frame'
 
 /** Bytes, low byte of each word first; or words, 0 to 65535 each. */

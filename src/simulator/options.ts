@@ -1,9 +1,9 @@
 // What a simulated PLC is made of: options, their defaults and their checks.
+import { badOption, oneOf, wholeNumber } from '../basics/option-checks'
 import type { DataCode } from '../codec/codec'
-import { RequestError } from '../errors'
-import type { OddBits } from '../melsec/a-compatible-rules'
-import { type DeviceName, findDevice } from '../melsec/device'
-import { frameFacts } from '../melsec/frames'
+import type { OddBits } from '../melsec/a-compatible/rules'
+import { type DeviceName, findDevice } from '../melsec/device/device'
+import { frameFacts } from '../melsec/frame/frames'
 import { modelOf } from '../melsec/model-code'
 import {
   asciiXyOf,
@@ -11,16 +11,17 @@ import {
   type Profile,
   type ProfileId,
   type ProfileOverrides,
-  resolveProfile,
-} from '../melsec/profile'
+} from '../melsec/profiles/profile'
+import { resolveProfile } from '../melsec/profiles/profiles'
 import { passwordProblem } from '../melsec/remote-password'
 import { type Clock, realClock } from '../transport/clock'
-import { drivesOf, type MountedDrive, type SimulatedDrives } from './drives'
+import { drivesOf, type MountedDrive } from './drives'
 import { fileClock } from './file-clock'
 import type { FilesParts } from './files'
-import type { Call } from './handlers'
+import type { Call } from './handler'
 import { LabelTable, type SimulatedLabels } from './labels'
 import type { ExtensionMemory } from './memory'
+import type { SimulatedDrives } from './simulated-drive'
 
 /** A port that listens. */
 export interface PortOptions {
@@ -161,7 +162,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     tcp: options.tcp ?? {},
     udp: options.udp ?? {},
     model: modelFor(profile.id, options.model),
-    maxConnections: whole('maxConnections', options.maxConnections ?? profile.connections.most, 1),
+    maxConnections: wholeNumber('maxConnections', options.maxConnections ?? profile.connections.most, 1),
     entryRelease: milliseconds('entryRelease', options.entryRelease ?? 0),
     otherStations: oneOf('otherStations', options.otherStations ?? 'refuse', ['refuse', 'silence']),
     resetAllowed: options.resetAllowed ?? false,
@@ -170,19 +171,19 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     remoteOwner: oneOf('remoteOwner', options.remoteOwner ?? 'host', ['host', 'connection']),
     latch: latchOf(options.latch ?? ['L', 'R', 'ZR']),
     extensions: options.extensions ?? {},
-    bufferMemory: whole('bufferMemory', options.bufferMemory ?? 0, 0, 0x1000000),
+    bufferMemory: wholeNumber('bufferMemory', options.bufferMemory ?? 0, 0, 0x1000000),
     labels: new LabelTable(options.labels ?? {}),
     drives: drivesOf(profile, options.drives ?? {}, fileClock((options.clock ?? realClock).time())),
-    maxOpenFiles: whole('maxOpenFiles', options.maxOpenFiles ?? 16, 1, 0x10000),
+    maxOpenFiles: wholeNumber('maxOpenFiles', options.maxOpenFiles ?? 16, 1, 0x10000),
     fileLocks: oneOf('fileLocks', options.fileLocks ?? 'kept', ['kept', 'released']),
     password: passwordOf(profile, options.password),
-    passwordAttempts: whole('passwordAttempts', options.passwordAttempts ?? 10, 1),
+    passwordAttempts: wholeNumber('passwordAttempts', options.passwordAttempts ?? 10, 1),
     lockOutTime: milliseconds('lockOutTime', options.lockOutTime ?? 60_000),
     clock: options.clock ?? realClock,
   }
   for (const name of Object.keys(options)) {
     if (name in settings || name === 'profileOverrides') continue
-    bad(name, `A simulator has no option ${name}: it has ${Object.keys(settings).join(', ')}, profileOverrides.`)
+    badOption(name, `A simulator has no option ${name}: it has ${Object.keys(settings).join(', ')}, profileOverrides.`)
   }
   return settings
 }
@@ -194,7 +195,7 @@ function digitsOf(profile: Profile, given: PlcSimulatorOptions['asciiXy']): Sett
 
 function framesOf(profile: Profile, code: DataCode, frames?: readonly FrameName[]): readonly FrameName[] {
   const possible = profile.frames.filter((frame) => frameFacts[frame].codes.includes(code))
-  if (frames?.length === 0) bad('frames', 'A port takes at least one frame.')
+  if (frames?.length === 0) badOption('frames', 'A port takes at least one frame.')
   return frames === undefined ? possible : frames.map((frame) => oneOf('frames', frame, possible))
 }
 
@@ -202,36 +203,23 @@ function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['mod
   const code = given?.code ?? MODEL_CODES[id]
   const name = given?.name ?? modelOf(code)?.models[0] ?? (id === 'fx3' ? 'FX3U' : '')
   if (!/^[\x20-\x7e]+$/.test(name) || name.length > MODEL_LENGTH) {
-    bad('model.name', `A model name has 1 to ${MODEL_LENGTH} ASCII characters, unlike ${JSON.stringify(name)}.`)
+    badOption('model.name', `A model name has 1 to ${MODEL_LENGTH} ASCII characters, unlike ${JSON.stringify(name)}.`)
   }
-  return { model: name.padEnd(MODEL_LENGTH), modelCode: whole('model.code', code, 0, 0xffff) }
+  return { model: name.padEnd(MODEL_LENGTH), modelCode: wholeNumber('model.code', code, 0, 0xffff) }
 }
 
 function latchOf(names: readonly DeviceName[]): readonly DeviceName[] {
-  for (const name of names) if (findDevice(name) === undefined) bad('latch', `There is no device ${String(name)}.`)
+  for (const name of names)
+    if (findDevice(name) === undefined) badOption('latch', `There is no device ${String(name)}.`)
   return names
 }
 
 function passwordOf(profile: Profile, password: string | undefined): string | undefined {
   const problem = password === undefined ? undefined : passwordProblem(profile, password)
-  return problem === undefined ? password : bad('password', `password: ${problem}.`)
-}
-
-function oneOf<T extends string>(field: string, value: T, allowed: readonly T[]): T {
-  if (allowed.includes(value)) return value
-  return bad(field, `${field} is ${allowed.join(' or ')} here, not ${String(value)}.`)
-}
-
-function whole(field: string, value: number, min: number, max = Number.MAX_SAFE_INTEGER): number {
-  if (Number.isInteger(value) && value >= min && value <= max) return value
-  return bad(field, `${field} is a whole number from ${min}, not ${String(value)}.`)
+  return problem === undefined ? password : badOption('password', `password: ${problem}.`)
 }
 
 function milliseconds(field: string, value: number): number {
   if (Number.isFinite(value) && value >= 0) return value
-  return bad(field, `${field} is a number of milliseconds from 0, not ${String(value)}.`)
-}
-
-function bad(field: string, message: string): never {
-  throw new RequestError('BAD_OPTION', message, field)
+  return badOption(field, `${field} is a number of milliseconds from 0, not ${String(value)}.`)
 }

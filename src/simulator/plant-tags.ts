@@ -1,6 +1,7 @@
 // The addresses of the demo plant, as data: the program, the demo flow, the examples and the documentation read them.
 import { RequestError } from '../errors'
-import { type ProfileId, profiles } from '../melsec/profile'
+import type { ProfileId } from '../melsec/profiles/profile'
+import { profiles } from '../melsec/profiles/profiles'
 import type { ValueFormat } from '../value/value'
 
 /** Which of the two demo PLCs: an iQ-R, or an FX5U with octal outputs. */

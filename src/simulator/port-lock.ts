@@ -1,5 +1,5 @@
 // The remote password of the simulated port (SLMP reference manual 5.7, FX5 communication manual 13.2 and 38.6).
-import type { ProfileId } from '../melsec/profile'
+import type { ProfileId } from '../melsec/profiles/profile'
 import { PORT_LOCKED } from '../melsec/remote-password'
 import type { Clock } from '../transport/clock'
 import { Refusal } from './refusal'

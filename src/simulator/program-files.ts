@@ -1,7 +1,7 @@
 // Files of the simulated PLC as a program in it sees them: no locks, no passwords.
 import { RequestError } from '../errors'
-import type { FileTime } from '../melsec/file-time'
-import type { Profile } from '../melsec/profile'
+import type { FileTime } from '../melsec/file/time'
+import type { Profile } from '../melsec/profiles/profile'
 import { type DrivePath, pathOf } from './drive'
 import type { MountedDrive } from './drives'
 import type { Files, OpenFile } from './files'

@@ -1,8 +1,8 @@
 // The program's side of the device memory: what a simulated process or a test reads and writes, by address and type.
 import { RequestError } from '../errors'
-import { type ParsedDevice, parseDevice } from '../melsec/address'
-import { type DeviceAddress, type DeviceName, deviceInfo } from '../melsec/device'
-import { addressOptionsOf, type Profile } from '../melsec/profile'
+import { type ParsedDevice, parseDevice } from '../melsec/device/address'
+import { type DeviceAddress, type DeviceName, deviceInfo } from '../melsec/device/device'
+import { addressOptionsOf, type Profile } from '../melsec/profiles/profile'
 import {
   bitOf,
   decodeValue,

@@ -1,5 +1,5 @@
 // How the simulated PLC says no. What a family answers is in its profile; here is what profiles do not hold.
-import type { ProfileId } from '../melsec/profile'
+import type { ProfileId } from '../melsec/profiles/profile'
 
 /** Ends the work on a request; the PLC answers with the end code. It never leaves this room. */
 export class Refusal extends Error {

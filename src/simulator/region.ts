@@ -1,5 +1,5 @@
 // The cells of one device: what is read and written, in bits, words and double words.
-import type { DeviceInfo } from '../melsec/device'
+import type { DeviceInfo } from '../melsec/device/device'
 
 /** A run of cells: one per device number. Bits 0 or 1, words 0..65535, double words 0..4294967295. */
 export interface Region {

@@ -1,10 +1,10 @@
 // A simulated PLC that listens: on TCP, on UDP and in memory.
 import { ClosedError } from '../errors'
-import { bodies } from '../melsec/body'
 import type { CommandName } from '../melsec/commands/commands'
-import type { Profile } from '../melsec/profile'
+import { bodies } from '../melsec/frame/body'
+import { ownStation } from '../melsec/frame/route'
+import type { Profile } from '../melsec/profiles/profile'
 import { MelsecProtocol } from '../melsec/protocol'
-import { ownStation } from '../melsec/route'
 import type { Clock } from '../transport/clock'
 import { listenTcp } from '../transport/listen-tcp'
 import { listenUdp } from '../transport/listen-udp'

@@ -1,7 +1,6 @@
 // The public names of this room.
 export type { RequestEvent } from './connection'
 export type { Cpu, CpuState, Hold, StateChange, SwitchPosition } from './cpu'
-export type { SimulatedDrive, SimulatedDrives, SimulatedFile } from './drives'
 export type { ErrorLog, LoggedError } from './error-log'
 export { type FaultKind, type FaultParameter, faultKinds } from './fault-kinds'
 export type { ActiveFault, Fault, FaultAim, FaultSubject, Faults } from './faults'
@@ -32,4 +31,5 @@ export {
   type SimulatorEvents,
   type WriteEvent,
 } from './server'
+export type { SimulatedDrive, SimulatedDrives, SimulatedFile } from './simulated-drive'
 export type { SimulatorStatistics } from './statistics'

@@ -1,6 +1,6 @@
 // What the drives of a simulated PLC hold when nothing else is said: enough to look at, and nothing that is real.
-import type { Profile } from '../melsec/profile'
-import type { SimulatedFile } from './drives'
+import type { Profile } from '../melsec/profiles/profile'
+import type { SimulatedFile } from './simulated-drive'
 
 type Files = Readonly<Record<string, SimulatedFile>>
 

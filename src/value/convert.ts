@@ -1,6 +1,8 @@
 /** Values from words and words from values, one or many, in any word and byte order. */
+
+import { show } from '../basics/show'
 import { PlcError, ProtocolError, RequestError } from '../errors'
-import { badValue, show } from './fault'
+import { badValue } from './fault'
 import { checkFormat, type ValueFormat } from './format'
 import { readers, real32, signed16, signed32, unsigned16, writers } from './number'
 import { decodeText, encodeText } from './text'

@@ -1,16 +1,7 @@
 /** The two ways a value can be wrong: the caller's, and the one the PLC holds. One place decides what each throws. */
+import { show } from '../basics/show'
 import { ProtocolError, RequestError } from '../errors'
 import { formatType, type ValueType } from './type'
-
-/** How a message shows a value: short, and so that a text is not taken for a number. */
-export function show(value: unknown): string {
-  if (typeof value === 'string') return value.length > 40 ? `'${value.slice(0, 40)}…'` : `'${value}'`
-  if (typeof value === 'bigint') return `${value}n`
-  if (typeof value === 'number' || typeof value === 'boolean' || value === null || value === undefined)
-    return Object.is(value, -0) ? '-0' : String(value)
-  if (Array.isArray(value)) return `an array of ${value.length}`
-  return `a value of type ${typeof value}`
-}
 
 /** The caller's value does not fit the type; nothing has been sent. */
 export function badValue(type: string, value: unknown, takes: string): RequestError {

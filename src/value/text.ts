@@ -5,10 +5,13 @@
  *
  * Nothing is replaced or cut: a character the code does not have, or bytes that are no text, are errors.
  */
+
 import { isAscii, isUtf8 } from 'node:buffer'
 import * as iconv from 'iconv-lite'
+import { hex, hexPairs } from '../basics/hex'
+import { show } from '../basics/show'
 import { ProtocolError, RequestError } from '../errors'
-import { badContent, badValue, show } from './fault'
+import { badContent, badValue } from './fault'
 import type { Encoding, ValueFormat } from './format'
 import { formatType, type TextType, wordsOf } from './type'
 import { requireWords, swapBytes, type Words, wordAt } from './word'
@@ -113,9 +116,8 @@ function withoutTrailingSpaces(text: string): string {
   return text.slice(0, end)
 }
 
-function hex(bytes: Buffer): string {
-  const digits = Array.from(bytes.subarray(0, 16), (byte) => byte.toString(16).toUpperCase().padStart(2, '0'))
-  return digits.join(' ') + (bytes.length > 16 ? ' …' : '')
+function firstBytes(bytes: Buffer): string {
+  return hexPairs(bytes.subarray(0, 16)) + (bytes.length > 16 ? ' …' : '')
 }
 
 /** Text from words: up to the first NUL or the declared length. */
@@ -126,7 +128,7 @@ export function decodeText(type: TextType, words: Words, offset: number, format:
   if (text === undefined) {
     throw badContent(
       type,
-      `the bytes ${hex(bytes)}`,
+      `the bytes ${firstBytes(bytes)}`,
       `they are no ${code.title} text; set the encoding or the byte order that the PLC program uses`,
     )
   }
@@ -145,7 +147,7 @@ function bytesIn(code: CharacterCode, text: string): Buffer {
   // Reading back what will be written is the one test that holds for every code: no '?' gets through.
   if (!unpaired.test(text) && code.decode(bytes) === text) return bytes
   const character = foreign(text, code) ?? text
-  const point = (character.codePointAt(0) ?? 0).toString(16).toUpperCase().padStart(4, '0')
+  const point = hex(character.codePointAt(0) ?? 0, 4)
   throw new RequestError(
     'BAD_VALUE',
     `${show(text)}: the character ${show(character)} (U+${point}) does not exist in ${code.title}; set another encoding or leave it out`,
@@ -203,7 +205,7 @@ export function textOfBytes(bytes: Uint8Array, encoding: Encoding): string {
   const text = all.length % unit === 0 ? decode(all) : undefined
   // FFFEH is no character: a byte order mark that says that the high byte is first.
   if (text !== undefined && !text.startsWith('\ufffe')) return text
-  const message = `These ${all.length} bytes are no ${title} text (${hex(all)}): set the encoding they are in, or take them as bytes.`
+  const message = `These ${all.length} bytes are no ${title} text (${firstBytes(all)}): set the encoding they are in, or take them as bytes.`
   throw new ProtocolError('BAD_FIELD', message)
 }
 

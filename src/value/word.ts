@@ -1,4 +1,5 @@
 /** Words of 16 bits: one word, its bits and its bytes, and several in another order. */
+import { hex } from '../basics/hex'
 import { RequestError } from '../errors'
 
 /** Words as a reader gives them: whole numbers from 0 to 65535. */
@@ -6,7 +7,7 @@ export type Words = ArrayLike<number>
 
 /** The manuals' spelling of a word: `12AFH`. */
 export function formatWord(word: number): string {
-  return `${word.toString(16).toUpperCase().padStart(4, '0')}H`
+  return `${hex(word, 4)}H`
 }
 
 /** The word at an index. Whatever is not one (missing, negative, a fraction) is refused: it would become a value. */

@@ -1,7 +1,7 @@
 /** A connection to a scripted PLC in memory, with a clock made of numbers: nothing happens unless the test says so. */
-import { Connection, type ConnectionOptions, type ConnectionState } from '../../src/client/connection'
+import { Connection, type ConnectionOptions, type ConnectionState } from '../../src/client/connection/connection'
 import type { PlcError } from '../../src/errors'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
 import { manualClock } from '../../src/transport/clock'
 import { listenMemory } from '../../src/transport/memory'
 import type { OpenTransport, Transport } from '../../src/transport/transport'

@@ -3,11 +3,11 @@
  * refuses everything for another one: what it carries out was sent to it.
  */
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec-client'
-import type { MelsecClientOptions } from '../../src/client/options'
+import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
+import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { EndCodeError } from '../../src/errors'
-import type { Command } from '../../src/melsec/command'
-import { describeCommand } from '../../src/melsec/command-name'
+import type { Command } from '../../src/melsec/commands/command'
+import { describeCommand } from '../../src/melsec/commands/command-name'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { createPlcSimulator, type PlcSimulator } from '../../src/simulator/server'
 

@@ -1,6 +1,6 @@
 // What a connection tells: states, frames, unsolicited frames, counters; and that nobody who listens can break it.
 import { describe, expect, test } from '@jest/globals'
-import type { TracedFrame } from '../../src/client/connection'
+import type { TracedFrame } from '../../src/client/connection/connection'
 import type { Transport, TransportHandlers } from '../../src/transport/transport'
 import { Bench } from './bench'
 import { exchanges, silent } from './scripted-plc'

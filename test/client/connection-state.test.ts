@@ -1,6 +1,6 @@
 /** States of a connection as a discriminated union: what the type promises by the name holds at run time. */
 import { describe, expect, test } from '@jest/globals'
-import { Supervisor } from '../../src/client/supervisor'
+import { Supervisor } from '../../src/client/connection/supervisor'
 import { ClosedError, type ConnectionState, type PlcErrorCode } from '../../src/index'
 import { Bench } from './bench'
 

@@ -1,7 +1,7 @@
 // Why a PLC that can be reached says nothing.
 import { describe, expect, test } from '@jest/globals'
-import { explainSilence, type LinkSettings } from '../../src/client/diagnosis'
-import { ownStation } from '../../src/melsec/route'
+import { explainSilence, type LinkSettings } from '../../src/client/melsec/diagnosis'
+import { ownStation } from '../../src/melsec/frame/route'
 
 const settings: LinkSettings = { transport: 'tcp', port: 5007, frame: '3E', code: 'binary', route: ownStation }
 const fresh = { peer: 'tcp 192.168.3.39:5007', answeredBefore: false }

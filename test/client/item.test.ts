@@ -1,8 +1,8 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { formatItem, type Item, type ParsedItem, parseItem, tryParseItem } from '../../src/client/item'
+import { formatItem, type Item, type ParsedItem, parseItem, tryParseItem } from '../../src/client/item/item'
 import { RequestError } from '../../src/errors'
-import { devices } from '../../src/melsec/device'
+import { devices } from '../../src/melsec/device/device'
 
 const options = { xyRadix: 16 } as const
 

@@ -1,5 +1,5 @@
 /** The whole line: a client and a simulated PLC, joined by real sockets on loopback. */
-import type { MelsecClientOptions } from '../../src/client/options'
+import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import {
   createMelsecClient,
   createPlcSimulator,

@@ -1,8 +1,8 @@
 /** A connection to a scripted PLC over real sockets of this computer. */
-import { Connection, type ConnectionState } from '../../src/client/connection'
-import { explainSilence } from '../../src/client/diagnosis'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { ownStation } from '../../src/melsec/route'
+import { Connection, type ConnectionState } from '../../src/client/connection/connection'
+import { explainSilence } from '../../src/client/melsec/diagnosis'
+import { ownStation } from '../../src/melsec/frame/route'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
 import { realClock } from '../../src/transport/clock'
 import { listenTcp } from '../../src/transport/listen-tcp'
 import { listenUdp } from '../../src/transport/listen-udp'

@@ -11,8 +11,8 @@ import {
   RequestError,
   type UnsolicitedFrame,
 } from '../../src/index'
-import { frame3e } from '../../src/melsec/frame-3e'
-import { ownStation } from '../../src/melsec/route'
+import { ownStation } from '../../src/melsec/frame/route'
+import { frame3e } from '../../src/melsec/frame/slmp-frame'
 import { realClock } from '../../src/transport/clock'
 import { brief, clientOptions, failureOf, kind, links, nextState, until, withLine } from './line'
 

@@ -12,8 +12,8 @@ import {
   type UnsolicitedFrame,
   unsolicitedCommands,
 } from '../../src/index'
-import { frame3e } from '../../src/melsec/frame-3e'
-import { ownStation } from '../../src/melsec/route'
+import { ownStation } from '../../src/melsec/frame/route'
+import { frame3e } from '../../src/melsec/frame/slmp-frame'
 import { hex, ON_DEMAND_DATA, ON_DEMAND_WORDS, onDemandFrames, text } from '../melsec/on-demand-frames'
 import { failureOf } from './line'
 

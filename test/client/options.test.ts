@@ -1,9 +1,9 @@
 // The options of a client: what is filled in, and what is refused before anything is connected.
 import { describe, expect, test } from '@jest/globals'
-import { type MelsecClientOptions, settle } from '../../src/client/options'
+import { type MelsecClientOptions, settle } from '../../src/client/melsec/options'
 import { RequestError } from '../../src/errors'
-import { profileIds } from '../../src/melsec/profile'
-import { ownStation } from '../../src/melsec/route'
+import { ownStation } from '../../src/melsec/frame/route'
+import { profileIds } from '../../src/melsec/profiles/profile'
 import { realClock } from '../../src/transport/clock'
 
 const peer = { host: '192.168.3.39', port: 5007 }

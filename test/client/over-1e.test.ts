@@ -1,6 +1,6 @@
 /** The client over 1E frames against the simulated iQ-F: typed items, control, and what 1E cannot do. */
 import { describe, expect, test } from '@jest/globals'
-import type { MelsecClientOptions } from '../../src/client/options'
+import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { RequestError } from '../../src/errors'
 import { MelsecClient, type TraceEntry } from '../../src/index'
 import { commands } from '../../src/melsec/commands/commands'

@@ -1,7 +1,7 @@
 // Random items, and what they are worth according to the PLC: computed value by value, without any plan.
 import fc from 'fast-check'
-import type { ParsedItem } from '../../src/client/item'
-import { deviceInfo } from '../../src/melsec/device'
+import type { ParsedItem } from '../../src/client/item/item'
+import { deviceInfo } from '../../src/melsec/device/device'
 import { decodeValue, type PlcValue, wordsOf } from '../../src/value/value'
 import type { PlanPlc } from './plan-plc'
 

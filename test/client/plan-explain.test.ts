@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
-import { parseItem } from '../../src/client/item'
-import { type DeviceExplanation, explainItem } from '../../src/client/plan-explain'
-import type { ProfileId } from '../../src/melsec/profile'
+import { parseItem } from '../../src/client/item/item'
+import { type DeviceExplanation, explainItem } from '../../src/client/plan/explain'
+import type { ProfileId } from '../../src/melsec/profiles/profile'
 import { protocolOf } from './plan-plc'
 
 function explain(text: string, profile: ProfileId = 'iq-r'): DeviceExplanation {

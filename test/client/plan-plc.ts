@@ -1,17 +1,18 @@
 // A PLC that is nothing but maps of words and bits, written from the manuals and without the planner's own ideas.
-import { type ParsedItem, type RefusedItem, tryParseItem } from '../../src/client/item'
-import type { ReadResult } from '../../src/client/plan-read'
-import type { Send } from '../../src/client/plan-request'
+import { type ParsedItem, type RefusedItem, tryParseItem } from '../../src/client/item/item'
+import type { ReadResult } from '../../src/client/item/item-value'
+import type { SendExchange } from '../../src/client/plan/request'
 import type { DataCode } from '../../src/codec/codec'
 import type { Exchange } from '../../src/link/link'
-import { formatDevice } from '../../src/melsec/address'
 import type { CommandName } from '../../src/melsec/commands/commands'
-import { type DeviceAddress, deviceInfo } from '../../src/melsec/device'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { brokenLimit, type Measurable } from '../../src/melsec/limit'
-import { type ProfileId, type ProfileOverrides, resolveProfile } from '../../src/melsec/profile'
+import { formatDevice } from '../../src/melsec/device/address'
+import { type DeviceAddress, deviceInfo } from '../../src/melsec/device/device'
+import { brokenLimit, type Measurable } from '../../src/melsec/device/limit'
+import { ownStation } from '../../src/melsec/frame/route'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import type { ProfileId, ProfileOverrides } from '../../src/melsec/profiles/profile'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
-import { ownStation } from '../../src/melsec/route'
 
 export function protocolOf(
   id: ProfileId,
@@ -62,7 +63,7 @@ export class PlanPlc {
   }
 
   /** Sends one request and reads its answer as the client does; writes show in the maps. */
-  readonly send: Send<Head3e> = async <T>(exchange: Exchange<Head3e, T>): Promise<T> => {
+  readonly send: SendExchange<Head3e> = async <T>(exchange: Exchange<Head3e, T>): Promise<T> => {
     await Promise.resolve()
     const { head, body } = exchange
     const request = this.protocol.readRequest({ head, serial: undefined, body })

@@ -1,10 +1,11 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import type { ParsedItem } from '../../src/client/item'
-import { planRead, type ReadPlan, type ReadResult } from '../../src/client/plan-read'
-import type { Send } from '../../src/client/plan-request'
+import type { ParsedItem } from '../../src/client/item/item'
+import type { ReadResult } from '../../src/client/item/item-value'
+import { type DeviceRead, planRead } from '../../src/client/plan/read'
+import type { SendExchange } from '../../src/client/plan/request'
 import { ConnectionError, EndCodeError, TimeoutError } from '../../src/errors'
-import type { Head3e } from '../../src/melsec/frame-3e'
+import type { Head3e } from '../../src/melsec/frame/slmp-frame'
 import { expectedValue, itemText, modifiedText } from './plan-arbitrary'
 import { goodValue, items, PlanPlc, protocolOf } from './plan-plc'
 
@@ -15,8 +16,8 @@ const LOCKED = 0xc201
 
 interface Bench {
   readonly plc: PlanPlc
-  readonly plan: ReadPlan<Head3e>
-  run(send?: Send<Head3e>): Promise<ReadResult[]>
+  readonly plan: DeviceRead<Head3e>
+  run(send?: SendExchange<Head3e>): Promise<ReadResult[]>
   /** Requests since the last call. */
   requests(): number
 }
@@ -285,7 +286,7 @@ describe('a refused command', () => {
     const { plc, run, requests } = bench(range(90, (i) => `D${100 * i}`))
     // A CPU that takes fewer points than the manual says.
     const most = 30
-    const send: Send<Head3e> = async (exchange) => {
+    const send: SendExchange<Head3e> = async (exchange) => {
       const { words } = exchange.message as { words?: readonly unknown[] }
       plc.refuse = () => ((words?.length ?? 0) > most ? 0xc054 : 0)
       return plc.send(exchange)

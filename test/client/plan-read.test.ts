@@ -1,8 +1,8 @@
 import { describe, expect, test } from '@jest/globals'
-import { planRead } from '../../src/client/plan-read'
-import type { RequestDescription } from '../../src/client/plan-request'
+import { planRead } from '../../src/client/plan/read'
+import type { RequestDescription } from '../../src/client/plan/request'
 import type { DataCode } from '../../src/codec/codec'
-import type { ProfileId, ProfileOverrides } from '../../src/melsec/profile'
+import type { ProfileId, ProfileOverrides } from '../../src/melsec/profiles/profile'
 import { items, protocolOf } from './plan-plc'
 
 function range(count: number, text: (i: number) => string): string[] {

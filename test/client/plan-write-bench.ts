@@ -1,12 +1,12 @@
 // A prepared write and the PLC it goes to.
-import { parseItem } from '../../src/client/item'
-import type { Send } from '../../src/client/plan-request'
-import { planWrite, type WriteOptions, type WritePlan, type WriteResult } from '../../src/client/plan-write'
-import type { WriteValue } from '../../src/client/plan-write-unit'
+import { parseItem } from '../../src/client/item/item'
+import type { PlainValue } from '../../src/client/item/item-value'
+import type { SendExchange } from '../../src/client/plan/request'
+import { type DeviceWrite, planWrite, type WriteOptions, type WriteResult } from '../../src/client/plan/write'
 import type { DataCode } from '../../src/codec/codec'
 import { EndCodeError, type PlcError } from '../../src/errors'
-import type { Head3e } from '../../src/melsec/frame-3e'
-import type { ProfileId, ProfileOverrides } from '../../src/melsec/profile'
+import type { Head3e } from '../../src/melsec/frame/slmp-frame'
+import type { ProfileId, ProfileOverrides } from '../../src/melsec/profiles/profile'
 import type { PlcValue } from '../../src/value/value'
 import { expectedValue } from './plan-arbitrary'
 import { items, PlanPlc, protocolOf } from './plan-plc'
@@ -19,13 +19,13 @@ export interface Setting extends WriteOptions {
 
 export interface Bench {
   readonly plc: PlanPlc
-  readonly plan: WritePlan<Head3e>
-  run(send?: Send<Head3e>): Promise<WriteResult[]>
+  readonly plan: DeviceWrite<Head3e>
+  run(send?: SendExchange<Head3e>): Promise<WriteResult[]>
   texts(): string[]
   value(text: string): PlcValue | PlcValue[]
 }
 
-export type Entries = readonly (readonly [text: string, value: WriteValue])[]
+export type Entries = readonly (readonly [text: string, value: PlainValue])[]
 
 export function bench(
   entries: Entries,

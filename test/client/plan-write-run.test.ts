@@ -1,8 +1,8 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { type ParsedItem, parseItem } from '../../src/client/item'
-import { planWrite } from '../../src/client/plan-write'
-import type { WriteValue } from '../../src/client/plan-write-unit'
+import { type ParsedItem, parseItem } from '../../src/client/item/item'
+import type { PlainValue } from '../../src/client/item/item-value'
+import { planWrite } from '../../src/client/plan/write'
 import { ClosedError, ProtocolError, TimeoutError } from '../../src/errors'
 import type { PlcValue } from '../../src/value/value'
 import { expectedValue } from './plan-arbitrary'
@@ -63,7 +63,7 @@ describe('what is written', () => {
     )
   })
 
-  test.each<[string, WriteValue]>([
+  test.each<[string, PlainValue]>([
     ['D300Z1', -5],
     ['D300Z1:LREAL', 2.5],
     ['D300Z1[5]', [1, 2, 3, 4, 5]],
@@ -131,7 +131,7 @@ describe('what is written', () => {
 })
 
 /** A value that fits the item, made from a number. */
-function valueFor({ type, count, digits }: ParsedItem, seed: number): WriteValue {
+function valueFor({ type, count, digits }: ParsedItem, seed: number): PlainValue {
   const one = (n: number): PlcValue => {
     if (type.name === 'BOOL') return n % 2 === 1
     if (type.name === 'STRING') return `a${n}`

@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
-import type { WriteValue } from '../../src/client/plan-write-unit'
+import type { PlainValue } from '../../src/client/item/item-value'
 import type { DataCode } from '../../src/codec/codec'
-import type { ProfileId } from '../../src/melsec/profile'
+import type { ProfileId } from '../../src/melsec/profiles/profile'
 import { bench, codes, type Entries, errorOf, RMW } from './plan-write-bench'
 
 function range(count: number, text: (i: number) => string): string[] {
@@ -167,7 +167,7 @@ describe('requests', () => {
 })
 
 describe('what is wrong is found before anything is sent', () => {
-  test.each<[string, WriteValue, string, string]>([
+  test.each<[string, PlainValue, string, string]>([
     ['D0', 40000, 'BAD_VALUE', 'INT'],
     ['D0', '5', 'BAD_VALUE', "'5'"],
     ['D0', [1], 'BAD_VALUE', 'one value, not an array'],
@@ -212,7 +212,7 @@ describe('what is wrong is found before anything is sent', () => {
     expect(plc.names).toEqual(['writeWords'])
   })
 
-  test.each<[string, WriteValue, string, WriteValue, boolean]>([
+  test.each<[string, PlainValue, string, PlainValue, boolean]>([
     ['M5', true, 'K4M0', 1, true],
     ['M16', true, 'K4M0', 1, false],
     ['D0.3', true, 'D0', 1, true],

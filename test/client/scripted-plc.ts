@@ -3,14 +3,14 @@
  * What it does with a request is a script, so that it can be late, silent, wrong or gone.
  */
 
-import { proofs } from '../../src/client/control'
+import { proofs } from '../../src/client/melsec/control'
 import type { RequestFrame } from '../../src/link/link'
 import { Responder } from '../../src/link/link'
 import { commands } from '../../src/melsec/commands/commands'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { resolveProfile } from '../../src/melsec/profile'
+import { ownStation } from '../../src/melsec/frame/route'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
-import { ownStation } from '../../src/melsec/route'
 import type { ServerConnection } from '../../src/transport/transport'
 
 export type Frame = '3E' | '4E' | 'ext'

@@ -1,5 +1,5 @@
 import { describe, expect, test } from '@jest/globals'
-import { Counters } from '../../src/client/statistics'
+import { Counters } from '../../src/client/connection/statistics'
 
 describe('counters', () => {
   test('start at 0, count, and show what waits at the moment', () => {

@@ -1,7 +1,7 @@
 // When to connect, when to wait, when to fail fast: a pure state machine, time and chance are arguments.
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { Supervisor } from '../../src/client/supervisor'
+import { Supervisor } from '../../src/client/connection/supervisor'
 import { ConnectionError } from '../../src/errors'
 
 const reason = new ConnectionError('CONNECT_FAILED', 'no route')

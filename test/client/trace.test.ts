@@ -1,9 +1,9 @@
 import { describe, expect, test } from '@jest/globals'
-import { TraceBuffer, Tracer, type TracerOptions } from '../../src/client/trace'
+import { TraceBuffer, Tracer, type TracerOptions } from '../../src/client/melsec/trace'
 import { declare, field } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { resolveProfile } from '../../src/melsec/profile'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
 const head: Head3e = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }

@@ -14,9 +14,9 @@ import {
 } from '../../src/codec/codec'
 import { ProtocolError } from '../../src/errors'
 import { jwCommands } from '../../src/jw/commands'
-import { aCompatibleCommands } from '../../src/melsec/a-compatible'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { commands } from '../../src/melsec/commands/commands'
-import { FORM_EXTENDED, FORM_LONG } from '../../src/melsec/device-codec'
+import { FORM_EXTENDED, FORM_LONG } from '../../src/melsec/device/codec'
 import { messageOf } from './arbitrary-message'
 
 type Bag = Readonly<Record<string, unknown>>

@@ -10,9 +10,9 @@ import {
 } from '../../src/codec/codec'
 import { type JwCommands, jwCommands } from '../../src/jw/commands'
 import type { JwAddress } from '../../src/jw/operand'
-import { type ACompatibleCommands, aCompatibleCommands } from '../../src/melsec/a-compatible'
+import { type ACompatibleCommands, aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { type Commands, commands } from '../../src/melsec/commands/commands'
-import type { DeviceAddress } from '../../src/melsec/device'
+import type { DeviceAddress } from '../../src/melsec/device/device'
 import { declarationCases } from '../support/declarations'
 
 const { bits, bytes, countOf, each, echo, fixed, list, text, u16, u32, u8, value, words } = field

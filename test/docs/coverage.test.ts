@@ -1,15 +1,16 @@
 /** Lists in the documentation against the lists in the code: what is added there must be said here, and the reverse. */
 import { describe, expect, test } from '@jest/globals'
 import { parse } from 'acorn'
-import { settle } from '../../src/client/options'
-import { parseItem } from '../../src/client/plan'
+import { parseItem } from '../../src/client/item/item'
+import { settle } from '../../src/client/melsec/options'
 import * as library from '../../src/index'
-import type { Command } from '../../src/melsec/command'
+import type { Command } from '../../src/melsec/commands/command'
 import { commands } from '../../src/melsec/commands/commands'
-import { devices } from '../../src/melsec/device'
-import { explainEndCode } from '../../src/melsec/end-code'
-import { limitsOf } from '../../src/melsec/limit'
-import { doubtOf, lackOf, profileIds, profiles } from '../../src/melsec/profile'
+import { devices } from '../../src/melsec/device/device'
+import { limitsOf } from '../../src/melsec/device/limit'
+import { explainEndCode } from '../../src/melsec/end-codes/end-code'
+import { doubtOf, lackOf, profileIds } from '../../src/melsec/profiles/profile'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { faultKinds } from '../../src/simulator/fault-kinds'
 import { settingsOf } from '../../src/simulator/options'
 import { parseType, typeNames, wordsOf } from '../../src/value/value'
@@ -43,7 +44,7 @@ function unionOf(path: string, name: string): string[] {
 describe('options', () => {
   test('of the client are those in docs/client.md', () => {
     expect(namesIn('docs/client.md', 'options: client').sort()).toEqual(
-      membersOf('src/client/options.ts', 'MelsecClientOptions').sort(),
+      membersOf('src/client/melsec/options.ts', 'MelsecClientOptions').sort(),
     )
   })
 
@@ -76,7 +77,7 @@ describe('options', () => {
 
   test('of a profile that users may set are in docs/client.md', () => {
     const named = codeSpansOf(proseOf('docs/client.md').split('### Profile overrides')[1] ?? '')
-    expect(named).toEqual(expect.arrayContaining(membersOf('src/melsec/profile.ts', 'ProfileOverrides')))
+    expect(named).toEqual(expect.arrayContaining(membersOf('src/melsec/profiles/profile.ts', 'ProfileOverrides')))
   })
 })
 
@@ -115,16 +116,16 @@ describe('lists', () => {
 
   test('states of a connection are those in docs/client.md', () => {
     expect(namesIn('docs/client.md', 'states').sort()).toEqual(
-      unionOf('src/client/supervisor.ts', 'ConnectionStateName').sort(),
+      unionOf('src/client/connection/supervisor.ts', 'ConnectionStateName').sort(),
     )
   })
 
   test('statistics are those in docs/client.md', () => {
     expect(namesIn('docs/client.md', 'statistics').sort()).toEqual(
-      membersOf('src/client/statistics.ts', 'Statistics').sort(),
+      membersOf('src/client/connection/statistics.ts', 'Statistics').sort(),
     )
     const spans = codeSpansOf(proseOf('docs/client.md'))
-    expect(spans).toEqual(expect.arrayContaining(membersOf('src/client/statistics.ts', 'RoundTrip')))
+    expect(spans).toEqual(expect.arrayContaining(membersOf('src/client/connection/statistics.ts', 'RoundTrip')))
   })
 
   test('commands that request() takes are in docs/client.md', () => {
@@ -147,14 +148,17 @@ describe('lists', () => {
 
   test('calls of remote control are in docs/client.md', () => {
     const shown = namesIn('docs/client.md', 'control').flatMap((call) => /^control\.(\w+)/.exec(call)?.[1] ?? [])
-    expect(shown.sort()).toEqual(membersOf('src/client/control.ts', 'Control').sort())
+    expect(shown.sort()).toEqual(membersOf('src/client/melsec/control.ts', 'Control').sort())
   })
 
   test('rooms and what they may import are in docs/architecture.md as in the test of the architecture', () => {
     const [, block = ''] = readText('test/architecture.test.ts').split('const ROOMS')
     const [table = ''] = block.split('\n}')
-    const rules = [...table.matchAll(/^ {2}(\w+): \[(.*)\],$/gm)]
-    const wanted = rules.map(([, room, names = '']) => [room, [...names.matchAll(/'(\w+)'/g)].map(([, name]) => name)])
+    const rules = [...table.matchAll(/^ {2}'?([\w/]+)'?: \[([^\]]*)\],$/gm)]
+    const wanted = rules.map(([, room, names = '']) => [
+      room,
+      [...names.matchAll(/'([\w/]+)'/g)].map(([, name]) => name),
+    ])
     expect(wanted.length).toBeGreaterThan(8)
     const shown = tableAfter('docs/architecture.md', 'rooms').map(([room, names]) => [
       codeOf(room),

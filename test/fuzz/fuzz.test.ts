@@ -4,7 +4,7 @@
  */
 import { describe, expect, test } from '@jest/globals'
 import { jwCommands } from '../../src/jw/commands'
-import { aCompatibleCommands } from '../../src/melsec/a-compatible'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { commands } from '../../src/melsec/commands/commands'
 import { frameKinds } from './frame-kinds'
 import { Random } from './random'

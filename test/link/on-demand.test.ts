@@ -1,6 +1,6 @@
 /** Frames that come unasked, between the answers and whatever way the bytes are cut: each is told once, none disturbs. */
 import { describe, expect, test } from '@jest/globals'
-import { frame3e } from '../../src/melsec/frame-3e'
+import { frame3e } from '../../src/melsec/frame/slmp-frame'
 import { onDemandFrames } from '../melsec/on-demand-frames'
 import { answer, job, sent, sessionOf, type TestSession, told } from './support'
 

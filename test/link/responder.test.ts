@@ -2,7 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { Responder } from '../../src/link/link'
-import { frame4cFormat5 } from '../../src/melsec/frame-4c'
+import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
 import { HEAD, slmpFrames } from './support'
 
 describe.each(slmpFrames)('$title', ({ framing }) => {

@@ -3,8 +3,8 @@ import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { jwFrame } from '../../src/jw/frame'
 import { type Framing, Session, type SessionOptions } from '../../src/link/link'
-import { frame1e } from '../../src/melsec/frame-1e'
-import { frame4cFormat5 } from '../../src/melsec/frame-4c'
+import { frame1e } from '../../src/melsec/frame/frame-1e'
+import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
 import { answer, eventsOf, HEAD, job, sent, sessionOf, slmpFrames, told } from './support'
 
 describe.each(slmpFrames)('$title', ({ framing }) => {

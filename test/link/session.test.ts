@@ -2,7 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
 import { type Framing, type RequestFrame, SerialNumbers } from '../../src/link/link'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
 import { answer, HEAD, job, sent, sessionOf, slmpFrames, type TestSession, told } from './support'
 
 const codes = ['binary', 'ascii'] as const

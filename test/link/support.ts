@@ -7,9 +7,9 @@ import {
   type SessionEvent,
   type SessionOptions,
 } from '../../src/link/link'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { frameFacts } from '../../src/melsec/frames'
-import { ownStation } from '../../src/melsec/route'
+import { frameFacts } from '../../src/melsec/frame/frames'
+import { ownStation } from '../../src/melsec/frame/route'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
 
 /** Every frame of the SLMP set in every data code it has. */
 export const slmpFrames = (['3E', '4E', 'ext'] as const).flatMap((frame) =>

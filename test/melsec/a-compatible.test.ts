@@ -2,16 +2,16 @@
 import { describe, expect, test } from '@jest/globals'
 import type { Declaration, Named } from '../../src/codec/codec'
 import { RequestError } from '../../src/errors'
-import { type ACompatibleCommandName, aCompatibleCommands } from '../../src/melsec/a-compatible'
-import { type ACompatibleOptions, aCompatibleProtocol } from '../../src/melsec/a-compatible-protocol'
+import { type ACompatibleCommandName, aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
+import { type ACompatibleOptions, aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import {
   aCompatibleFamilies,
   aCompatibleLimit,
   aCompatibleLimits,
   fromFrame,
   toFrame,
-} from '../../src/melsec/a-compatible-rules'
-import { type DeviceName, deviceInfo } from '../../src/melsec/device'
+} from '../../src/melsec/a-compatible/rules'
+import { type DeviceName, deviceInfo } from '../../src/melsec/device/device'
 import { bytesOf, vectorsOfKind } from '../vectors/vectors'
 
 type Bag = Readonly<Record<string, unknown>>

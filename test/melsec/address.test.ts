@@ -1,9 +1,9 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { RequestError } from '../../src/errors'
-import { type AddressOptions, formatDevice, formatParsedDevice, parseDevice } from '../../src/melsec/address'
-import { type DeviceAddress, devices } from '../../src/melsec/device'
-import { addressProblem } from '../../src/melsec/device-access'
+import { addressProblem } from '../../src/melsec/device/access'
+import { type AddressOptions, formatDevice, formatParsedDevice, parseDevice } from '../../src/melsec/device/address'
+import { type DeviceAddress, devices } from '../../src/melsec/device/device'
 import { anyAddress } from './device-bytes'
 
 const HEX: AddressOptions = { xyRadix: 16 }

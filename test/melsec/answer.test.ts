@@ -2,10 +2,10 @@
 import { describe, expect, test } from '@jest/globals'
 import type { DataCode } from '../../src/codec/codec'
 import { commands } from '../../src/melsec/commands/commands'
-import { frame3e } from '../../src/melsec/frame-3e'
-import { resolveProfile } from '../../src/melsec/profile'
+import { ownStation } from '../../src/melsec/frame/route'
+import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
-import { ownStation } from '../../src/melsec/route'
 
 function asked(code: DataCode) {
   const head = { route: ownStation, timer: 0 }

@@ -1,9 +1,9 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { ProtocolError, RequestError } from '../../src/errors'
-import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible-device'
-import type { DeviceAddress, DeviceName } from '../../src/melsec/device'
-import { FORM_XY_OCTAL } from '../../src/melsec/device-codec'
+import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible/device'
+import { FORM_XY_OCTAL } from '../../src/melsec/device/codec'
+import type { DeviceAddress, DeviceName } from '../../src/melsec/device/device'
 import { read, readBytes, write } from './device-bytes'
 
 // iQ-F communication manual ch. 39.2: [device, binary, ASCII] of number 4D2H = 1234.

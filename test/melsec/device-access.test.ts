@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
-import { type DeviceAddress, type DeviceCommand, type DeviceName, devices } from '../../src/melsec/device'
-import { accessProblem, addressProblem, checkAddress } from '../../src/melsec/device-access'
+import { accessProblem, addressProblem, checkAddress } from '../../src/melsec/device/access'
+import { type DeviceAddress, type DeviceCommand, type DeviceName, devices } from '../../src/melsec/device/device'
 
 const COMMANDS: readonly DeviceCommand[] = [
   'readBits',

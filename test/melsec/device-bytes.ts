@@ -3,8 +3,8 @@ import fc from 'fast-check'
 import { AsciiReader, AsciiWriter } from '../../src/codec/ascii'
 import { BinaryReader, BinaryWriter } from '../../src/codec/binary'
 import type { ValueCodec } from '../../src/codec/cursor'
-import { type DeviceAddress, devices } from '../../src/melsec/device'
-import { addressProblem } from '../../src/melsec/device-access'
+import { addressProblem } from '../../src/melsec/device/access'
+import { type DeviceAddress, devices } from '../../src/melsec/device/device'
 
 /** Binary as hexadecimal text, ASCII as it is. */
 export function write<T>(codec: ValueCodec<T>, value: T, ascii: boolean, form: number): string {

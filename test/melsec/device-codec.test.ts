@@ -1,8 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { ProtocolError, RequestError } from '../../src/errors'
-import type { DeviceAddress, DeviceName } from '../../src/melsec/device'
-import { checkAddress } from '../../src/melsec/device-access'
+import { checkAddress } from '../../src/melsec/device/access'
 import {
   deviceAddress,
   FORM_EXTENDED,
@@ -11,7 +10,8 @@ import {
   FORM_ZR_HEX,
   formNeededBy,
   formProblem,
-} from '../../src/melsec/device-codec'
+} from '../../src/melsec/device/codec'
+import type { DeviceAddress, DeviceName } from '../../src/melsec/device/device'
 import { anyAddress, read, readBytes, write } from './device-bytes'
 
 const SHORT = 0

@@ -1,6 +1,6 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
-import { type DeviceName, deviceInfo, devices, devicesOfGroup, findDevice } from '../../src/melsec/device'
+import { type DeviceName, deviceInfo, devices, devicesOfGroup, findDevice } from '../../src/melsec/device/device'
 
 describe('the device table', () => {
   test('has every device of the SLMP manual, S of the FX5 and the buffer memory devices, once', () => {

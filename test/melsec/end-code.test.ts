@@ -1,6 +1,6 @@
 import { describe, expect, jest, test } from '@jest/globals'
 import { commands } from '../../src/melsec/commands/commands'
-import { endCodes, explainEndCode, languages } from '../../src/melsec/end-code'
+import { endCodes, explainEndCode, languages } from '../../src/melsec/end-codes/end-code'
 import { endCodeGroups } from '../../src/melsec/end-codes/groups'
 import { endCodeHints } from '../../src/melsec/end-codes/hints'
 import { endCodePlaces, placesOf } from '../../src/melsec/end-codes/places'

@@ -1,11 +1,11 @@
 // Frames of file commands in words.
 import { describe, expect, test } from '@jest/globals'
 import { MASK } from '../../src/codec/annotate'
-import type { Command } from '../../src/melsec/command'
+import type { Command } from '../../src/melsec/commands/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { explainFrame, maskSecrets } from '../../src/melsec/explain-frame'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { profiles } from '../../src/melsec/profile'
+import { explainFrame, maskSecrets } from '../../src/melsec/explain/frame'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, type RequestDataVector, vectorsOfKind } from '../vectors/vectors'
 

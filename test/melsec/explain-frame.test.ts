@@ -4,21 +4,16 @@ import { type AnnotatedRow, MASK } from '../../src/codec/annotate'
 import { declare, field, type Shape } from '../../src/codec/codec'
 import { ProtocolError, RequestError } from '../../src/errors'
 import type { NamedCommand } from '../../src/link/link'
-import { aCompatibleCommands } from '../../src/melsec/a-compatible'
-import { aCompatibleProtocol } from '../../src/melsec/a-compatible-protocol'
-import type { Command } from '../../src/melsec/command'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
+import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
+import type { Command } from '../../src/melsec/commands/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import {
-  type ExplainFrameOptions,
-  explainFrame,
-  type FrameExplanation,
-  formatExplanation,
-  maskSecrets,
-} from '../../src/melsec/explain-frame'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { frame4cFormat5 } from '../../src/melsec/frame-4c'
-import { frameFacts, type SlmpFrameName } from '../../src/melsec/frames'
-import { resolveProfile } from '../../src/melsec/profile'
+import { explainFrame, type FrameExplanation, formatExplanation, maskSecrets } from '../../src/melsec/explain/frame'
+import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
+import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
+import { frameFacts, type SlmpFrameName } from '../../src/melsec/frame/frames'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, type FrameVector, type Message, vectorsOfKind } from '../vectors/vectors'
 

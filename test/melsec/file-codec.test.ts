@@ -3,7 +3,7 @@ import { describe, expect, test } from '@jest/globals'
 import { type DataCode, decode, encode, readerOf, type Shape, type ValueCodec, writerOf } from '../../src/codec/codec'
 import { ProtocolError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
-import { attributeNumber, attributesOf, attributeText } from '../../src/melsec/file-attribute'
+import { attributeNumber, attributesOf, attributeText } from '../../src/melsec/file/attribute'
 import {
   directoryPath,
   entryName,
@@ -13,8 +13,8 @@ import {
   fileNumber,
   filePassword,
   searchPassword,
-} from '../../src/melsec/file-codec'
-import { changedTime, formatFileTime, isFileTime, modifiedTime } from '../../src/melsec/file-time'
+} from '../../src/melsec/file/codec'
+import { changedTime, formatFileTime, isFileTime, modifiedTime } from '../../src/melsec/file/time'
 
 const LONG = FORM_FILE_UTF16
 

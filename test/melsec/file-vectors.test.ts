@@ -11,9 +11,9 @@ import {
   writerOf,
 } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { directoryPath, fileName, fileNumber } from '../../src/melsec/file-codec'
-import { codecBits, subcommandOf } from '../../src/melsec/form'
-import { profiles } from '../../src/melsec/profile'
+import { codecBits, subcommandOf } from '../../src/melsec/device/form'
+import { directoryPath, fileName, fileNumber } from '../../src/melsec/file/codec'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { bytesOf, type Message, plain, vectorsOf, vectorsOfKind } from '../vectors/vectors'
 
 const HEAD = { binary: 4, ascii: 8 } as const

@@ -2,11 +2,11 @@
 import { describe, expect, test } from '@jest/globals'
 import { EndCodeError, ProtocolError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
-import { explainFrame, formatExplanation } from '../../src/melsec/explain-frame'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { resolveProfile } from '../../src/melsec/profile'
+import { explainFrame, formatExplanation } from '../../src/melsec/explain/frame'
+import { completeRoute } from '../../src/melsec/frame/route'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
-import { completeRoute } from '../../src/melsec/route'
 
 const head: Head3e = { route: completeRoute({ network: 1, station: 300 }), timer: 16 }
 const framing = frame3e('ext', 'binary')

@@ -2,8 +2,8 @@
 import { describe, expect, test } from '@jest/globals'
 import { type Context, decode, encode, measure, readerOf, type Shape, writerOf } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { expandLabel, labelDataType } from '../../src/melsec/label'
-import { labelData, labelName, writtenLabelArea } from '../../src/melsec/label-codec'
+import { labelData, labelName, writtenLabelArea } from '../../src/melsec/label/codec'
+import { expandLabel, labelDataType } from '../../src/melsec/label/label'
 import { bytesOf, vectorsOfKind } from '../vectors/vectors'
 
 const HEAD = { binary: 4, ascii: 8 } as const

@@ -2,10 +2,18 @@ import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
-import { abbreviated, expandLabel, inRequests, labelDataType, labelDataTypes, parseLabel } from '../../src/melsec/label'
-import { checkLimits, limitsOf } from '../../src/melsec/limit'
-import { lackOf, profiles } from '../../src/melsec/profile'
+import { checkLimits, limitsOf } from '../../src/melsec/device/limit'
+import {
+  abbreviated,
+  expandLabel,
+  inRequests,
+  labelDataType,
+  labelDataTypes,
+  parseLabel,
+} from '../../src/melsec/label/label'
 import { labelCommandNames } from '../../src/melsec/profiles/no-labels'
+import { lackOf } from '../../src/melsec/profiles/profile'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { parseType } from '../../src/value/value'
 
 describe('names', () => {

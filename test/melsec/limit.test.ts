@@ -1,7 +1,9 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
-import { brokenLimit, checkLimits, limitsOf, measureLimit } from '../../src/melsec/limit'
-import { type DeviceForm, type ProfileId, profiles, resolveProfile } from '../../src/melsec/profile'
+import type { DeviceForm } from '../../src/melsec/device/device-form'
+import { brokenLimit, checkLimits, limitsOf, measureLimit } from '../../src/melsec/device/limit'
+import type { ProfileId } from '../../src/melsec/profiles/profile'
+import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
 
 type Message = Readonly<Record<string, unknown>>
 

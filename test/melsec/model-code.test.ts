@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
-import { pcTypeCodes } from '../../src/melsec/a-compatible-type'
+import { pcTypeCodes } from '../../src/melsec/a-compatible/type-code'
 import { modelCodes, modelOf } from '../../src/melsec/model-code'
-import { profileIds } from '../../src/melsec/profile'
+import { profileIds } from '../../src/melsec/profiles/profile'
 import { fx5Models, pcTypes, slmpModels } from './model-tables'
 
 describe('model codes', () => {

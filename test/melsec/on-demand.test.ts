@@ -4,7 +4,7 @@ import fc from 'fast-check'
 import { ProtocolError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { unsolicitedCommands, wordsOfBytes } from '../../src/melsec/commands/on-demand'
-import { frame3e } from '../../src/melsec/frame-3e'
+import { frame3e } from '../../src/melsec/frame/slmp-frame'
 import { readOnDemand, writeOnDemand } from '../../src/melsec/on-demand'
 import { hex, ON_DEMAND_DATA, onDemandFrames, text } from './on-demand-frames'
 

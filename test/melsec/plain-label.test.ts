@@ -1,8 +1,8 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { formatDevice } from '../../src/melsec/address'
-import { devices, devicesOfGroup } from '../../src/melsec/device'
-import { isLabelName, isPlainLabel } from '../../src/melsec/plain-label'
+import { formatDevice } from '../../src/melsec/device/address'
+import { devices, devicesOfGroup } from '../../src/melsec/device/device'
+import { isLabelName, isPlainLabel } from '../../src/melsec/label/plain-label'
 
 const options = { xyRadix: 16 } as const
 

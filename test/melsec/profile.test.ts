@@ -1,9 +1,11 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
-import { devices, findDevice } from '../../src/melsec/device'
-import { explainEndCode } from '../../src/melsec/end-code'
-import { limitsOf, pointFields } from '../../src/melsec/limit'
+import { devices, findDevice } from '../../src/melsec/device/device'
+import { limitsOf, pointFields } from '../../src/melsec/device/limit'
+import { explainEndCode } from '../../src/melsec/end-codes/end-code'
+import { fileCommandNames } from '../../src/melsec/profiles/files'
+import { labelCommandNames } from '../../src/melsec/profiles/no-labels'
 import {
   doubtOf,
   exclusionOf,
@@ -12,11 +14,8 @@ import {
   type Profile,
   type ProfileId,
   profileIds,
-  profiles,
-  resolveProfile,
-} from '../../src/melsec/profile'
-import { fileCommandNames } from '../../src/melsec/profiles/files'
-import { labelCommandNames } from '../../src/melsec/profiles/no-labels'
+} from '../../src/melsec/profiles/profile'
+import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
 
 const all = Object.values(profiles)
 const commandNames = Object.keys(commands)

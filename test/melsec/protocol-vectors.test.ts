@@ -2,8 +2,8 @@
 import { describe, expect, test } from '@jest/globals'
 import { EndCodeError } from '../../src/errors'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { resolveProfile } from '../../src/melsec/profile'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, plain, type RequestDataVector, vectorsOfKind } from '../vectors/vectors'
 

@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { RequestError } from '../../src/errors'
-import type { FrameName } from '../../src/melsec/frames'
+import type { FrameName } from '../../src/melsec/frame/frames'
 import {
   checkRouteOf,
   completeRoute,
@@ -12,7 +12,7 @@ import {
   ownStation,
   parseRoute,
   type Route,
-} from '../../src/melsec/route'
+} from '../../src/melsec/frame/route'
 
 function refusal(run: () => unknown): RequestError {
   try {

@@ -1,9 +1,9 @@
 // Indirect specification through sockets: what stands in two words says which device is meant.
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec-client'
+import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
 import { PlcError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
-import type { ProfileId } from '../../src/melsec/profile'
+import type { ProfileId } from '../../src/melsec/profiles/profile'
 import { createPlcSimulator, type PlcSimulator } from '../../src/simulator/server'
 
 const ended: (() => Promise<void>)[] = []

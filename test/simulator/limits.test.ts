@@ -1,8 +1,9 @@
 import { describe, expect, test } from '@jest/globals'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { FORM_BITS } from '../../src/melsec/form'
-import { type Limit, limitsOf, measureLimit } from '../../src/melsec/limit'
-import { lackOf, profileIds, profiles } from '../../src/melsec/profile'
+import { FORM_BITS } from '../../src/melsec/device/form'
+import { type Limit, limitsOf, measureLimit } from '../../src/melsec/device/limit'
+import { lackOf, profileIds } from '../../src/melsec/profiles/profile'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { join, rawBody } from './support'
 
 type Coded = readonly [command: CommandName, subcommandUnit: 0 | 1]

@@ -1,8 +1,9 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
-import { type DeviceName, deviceInfo, devices } from '../../src/melsec/device'
-import { type Profile, profileIds, profiles } from '../../src/melsec/profile'
+import { type DeviceName, deviceInfo, devices } from '../../src/melsec/device/device'
+import { type Profile, profileIds } from '../../src/melsec/profiles/profile'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { createPlcSimulator } from '../../src/simulator/server'
 import { join, rawBody } from './support'
 

@@ -1,6 +1,6 @@
 import { describe, expect, test } from '@jest/globals'
 import { commands } from '../../src/melsec/commands/commands'
-import type { ProfileId } from '../../src/melsec/profile'
+import type { ProfileId } from '../../src/melsec/profiles/profile'
 import { join, rawBody } from './support'
 
 const M0 = { device: 'M', number: 0 } as const

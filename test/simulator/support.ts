@@ -2,13 +2,15 @@
 import { encode, type MessageInput, writerOf } from '../../src/codec/codec'
 import { EndCodeError } from '../../src/errors'
 import { Session } from '../../src/link/link'
-import type { Command, RequestOf, ResponseOf } from '../../src/melsec/command'
-import { FORM_BITS } from '../../src/melsec/form'
-import { frame3e, type Head3e } from '../../src/melsec/frame-3e'
-import { type DeviceForm, type FrameName, type Profile, profiles } from '../../src/melsec/profile'
+import type { Command, RequestOf, ResponseOf } from '../../src/melsec/commands/command'
+import type { DeviceForm } from '../../src/melsec/device/device-form'
+import { FORM_BITS } from '../../src/melsec/device/form'
+import { completeRoute, type Route } from '../../src/melsec/frame/route'
+import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
 import { anyFiles } from '../../src/melsec/profiles/files'
+import type { FrameName, Profile } from '../../src/melsec/profiles/profile'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { type ExchangeOptions, MelsecProtocol } from '../../src/melsec/protocol'
-import { completeRoute, type Route } from '../../src/melsec/route'
 import {
   type ConnectOptions,
   createPlcSimulator,

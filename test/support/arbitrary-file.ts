@@ -10,8 +10,8 @@ import {
   filePassword,
   lastFileNumber,
   searchPassword,
-} from '../../src/melsec/file-codec'
-import { changedTime, isFileTime, modifiedTime } from '../../src/melsec/file-time'
+} from '../../src/melsec/file/codec'
+import { changedTime, isFileTime, modifiedTime } from '../../src/melsec/file/time'
 
 export const fileCodecs: readonly object[] = [
   driveNumber,

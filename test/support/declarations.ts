@@ -1,11 +1,11 @@
 /** Every declaration of this package, in every code and form it is sent in. */
 import type { DataCode, Declaration, Shape } from '../../src/codec/codec'
 import { jwCommands } from '../../src/jw/commands'
-import { aCompatibleCommands } from '../../src/melsec/a-compatible'
-import type { MelsecDeclaration } from '../../src/melsec/command'
+import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
+import type { MelsecDeclaration } from '../../src/melsec/commands/command'
 import { commands } from '../../src/melsec/commands/commands'
 import { fileCommands } from '../../src/melsec/commands/file'
-import { FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL, FORM_ZR_HEX } from '../../src/melsec/device-codec'
+import { FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL, FORM_ZR_HEX } from '../../src/melsec/device/codec'
 import { fileCommandNames } from '../../src/melsec/profiles/files'
 
 export interface DeclarationCase {

@@ -1,5 +1,5 @@
 import { describe, expect, test } from '@jest/globals'
-import { findDevice } from '../../src/melsec/device'
+import { findDevice } from '../../src/melsec/device/device'
 import { bytesOf, FAMILIES, vectorsOf } from './vectors'
 
 /** Kinds whose bytes in ASCII code may hold control codes (STX, ETX, CR …) or the text of the message. */

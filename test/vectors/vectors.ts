@@ -5,7 +5,7 @@
  */
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
-import type { DeviceAddress, DeviceExtension, DeviceName } from '../../src/melsec/device'
+import type { DeviceAddress, DeviceExtension, DeviceName } from '../../src/melsec/device/device'
 
 export type Form = 'short' | 'long' | 'extendedShort' | 'extendedLong'
 export type Side = 'request' | 'response'

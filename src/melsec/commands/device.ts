@@ -1,6 +1,6 @@
 import { declare, field } from '../../codec/codec'
-import { deviceAddress } from '../device-codec'
-import { setReset } from '../set-reset'
+import { deviceAddress } from '../device/codec'
+import { setReset } from '../device/set-reset'
 
 const { bits, countOf, doubleWords, each, list, u16, u32, value, words } = field
 const device = (doc?: string) => value(deviceAddress, doc)

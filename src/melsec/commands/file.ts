@@ -8,8 +8,8 @@ import {
   filePassword,
   lastFileNumber,
   searchPassword,
-} from '../file-codec'
-import { changedTime, modifiedTime } from '../file-time'
+} from '../file/codec'
+import { changedTime, modifiedTime } from '../file/time'
 
 const { bytes, countOf, fixed, fixedText, list, optional, spare, u16, u32, value } = field
 const manual = 'SLMP reference manual 5.8'

@@ -1,5 +1,5 @@
 import { declare, field } from '../../codec/codec'
-import { labelArea, labelData, labelName, writtenLabelArea } from '../label-codec'
+import { labelArea, labelData, labelName, writtenLabelArea } from '../label/codec'
 
 const { countOf, echo, fixed, list, u16, u8, value } = field
 const manual = 'SLMP reference manual 5.3'

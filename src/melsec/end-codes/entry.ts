@@ -1,14 +1,7 @@
 // The form end code texts are kept in: plain data, each text in all four languages side by side.
 import type { CommandName } from '../commands/commands'
 import type { RemedyName } from './remedies'
-
-export type Language = 'en-US' | 'ja' | 'zh-CN' | 'zh-TW'
-
-/** The languages, in the order of {@link Texts}. */
-export const languages: readonly Language[] = ['en-US', 'ja', 'zh-CN', 'zh-TW']
-
-/** One text in every language: whole sentences, so that they can stand side by side. */
-export type Texts = readonly [enUS: string, ja: string, zhCN: string, zhTW: string]
+import type { Texts } from './texts'
 
 export interface EndCodeEntry {
   readonly code: number

@@ -1,6 +1,7 @@
 // Parameter errors of FX5 Ethernet modules: which parameter it is says the event list (manual section 48).
-import { type EndCodeEntry, FX5_EVENTS, filled, type Texts } from './entry'
+import { type EndCodeEntry, FX5_EVENTS, filled } from './entry'
 import type { RemedyName } from './remedies'
+import type { Texts } from './texts'
 
 /** A parameter, one code after the other; `{}` of the group's pattern stands for it. */
 type Parameter = readonly [code: number, ...name: Texts]

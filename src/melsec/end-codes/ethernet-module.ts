@@ -1,6 +1,7 @@
 // Errors of FX5 Ethernet modules (latest error code Un\G29, event history), except those about a parameter
 // (ethernet-module-parameter.ts).
-import { type EndCodeEntry, type EndCodeRow, entriesOf, FX5_EVENTS, type Texts } from './entry'
+import { type EndCodeEntry, type EndCodeRow, entriesOf, FX5_EVENTS } from './entry'
+import type { Texts } from './texts'
 
 const rows: readonly EndCodeRow[] = [
   [

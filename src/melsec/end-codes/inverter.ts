@@ -1,7 +1,8 @@
 // Error codes of inverter communication: what the CPU notes, what the inverter answers (H0 to HF), and which of the two
 // data of an IVMC instruction it refused.
-import { type EndCodeEntry, type EndCodeRow, entriesOf, FX5_SERIAL, filled, type Texts } from './entry'
+import { type EndCodeEntry, type EndCodeRow, entriesOf, FX5_SERIAL, filled } from './entry'
 import type { RemedyName } from './remedies'
+import type { Texts } from './texts'
 
 const rows: readonly EndCodeRow[] = [
   [

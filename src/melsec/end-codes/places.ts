@@ -1,6 +1,6 @@
 // Where a code is seen: in an answer, or only in a register or history of the PLC. The lists are the tables of the FX5
 // communication manual (section 47); 4000H to 4FFFH and what FX5 lacks are answered by Q, L and iQ-R modules, too.
-import type { Texts } from './entry'
+import type { Texts } from './texts'
 
 /** One code, or the first and last of a range. */
 type Codes = readonly (number | readonly [from: number, to: number])[]

@@ -1,4 +1,4 @@
-import type { Texts } from './entry'
+import type { Texts } from './texts'
 
 /** What to do, for codes that share it. */
 export const remedies = {

@@ -1,5 +1,5 @@
 import type { CommandName } from '../commands/commands'
-import type { FileFacts, FileRefusals, Lack } from '../profile'
+import type { FileFacts, FileRefusals, Lack } from './profile'
 
 /** Every file command. */
 export const fileCommandNames = [

@@ -1,7 +1,7 @@
-import { fx3Windows } from '../a-compatible-rules'
-import type { Profile } from '../profile'
+import { fx3Windows } from '../a-compatible/rules'
 import { noFileFacts } from './files'
 import { profileOver1e } from './over-1e'
+import type { Profile } from './profile'
 
 const manual = 'background: FX3U-ENET-ADP user’s manual, chapter 7'
 

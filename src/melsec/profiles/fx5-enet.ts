@@ -1,8 +1,9 @@
 import type { CommandName } from '../commands/commands'
-import type { LimitRule } from '../limit'
-import type { DeviceForm, Lack, Profile } from '../profile'
+import type { DeviceForm } from '../device/device-form'
+import type { LimitRule } from '../device/limit-rule'
 import { fx5Limits, iqF, writtenBlocks } from './iq-f'
 import { randomWriteWeights } from './limits'
+import type { Lack, Profile } from './profile'
 
 const manual = 'FX5 communication manual 38.1 and 38.2, Ethernet module'
 const extended: readonly DeviceForm[] = ['extendedShort', 'extendedLong']

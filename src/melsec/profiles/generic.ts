@@ -1,8 +1,8 @@
-import type { Profile } from '../profile'
 import { anyFiles } from './files'
 import { iqF } from './iq-f'
 import { iqR } from './iq-r'
 import { passwordLimit } from './limits'
+import type { Profile } from './profile'
 import { networks } from './reach'
 
 /** For a PLC nobody knows: every form and command, and of all limits the lower ones. */

@@ -1,9 +1,10 @@
-import type { LimitRule } from '../limit'
-import type { DeviceForm, Profile } from '../profile'
+import type { DeviceForm } from '../device/device-form'
+import type { LimitRule } from '../device/limit-rule'
 import { noFileFacts, noFiles } from './files'
 import { blockCounts, passwordLimit, randomWriteWeights, writtenBlockWeights } from './limits'
 import { noMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
+import type { Profile } from './profile'
 import { pointsOf } from './ranges'
 
 const forms: readonly DeviceForm[] = ['short', 'extendedShort', 'extendedLong']

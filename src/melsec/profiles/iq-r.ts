@@ -1,7 +1,7 @@
-import type { Profile } from '../profile'
 import { iqRFiles } from './files'
 import { iqRLimits } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
+import type { Profile } from './profile'
 import { pointsOf } from './ranges'
 import { networks, openSettings } from './reach'
 

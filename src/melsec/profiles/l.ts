@@ -1,6 +1,6 @@
-import type { Profile } from '../profile'
 import { lFiles } from './files'
 import { qAndLLimits } from './limits'
+import type { Profile } from './profile'
 import { q } from './q'
 import { networks } from './reach'
 

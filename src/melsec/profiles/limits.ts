@@ -1,8 +1,8 @@
 // Limits of the SLMP reference manual (SH(NA)-081293), chapter 5.2, as rows. One set for both codes unless a row says so.
 // End codes: as measured by others on R120P, QnUDV, L02 and L26 CPUs; the manual gives none.
 
-import type { LimitRule, Weights } from '../limit'
-import type { DeviceForm } from '../profile'
+import type { DeviceForm } from '../device/device-form'
+import type { LimitRule, Weights } from '../device/limit-rule'
 import { labelCommandNames } from './no-labels'
 
 /** FX5 and Q/L alike: 12 per word, 14 per double word. */

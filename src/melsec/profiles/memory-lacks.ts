@@ -1,5 +1,5 @@
 import type { CommandName } from '../commands/commands'
-import type { Lack } from '../profile'
+import type { Lack } from './profile'
 
 const memory = ['readMemory', 'writeMemory'] as const satisfies readonly CommandName[]
 const extendUnit = ['readExtendUnit', 'writeExtendUnit'] as const satisfies readonly CommandName[]

@@ -1,5 +1,5 @@
 import type { CommandName } from '../commands/commands'
-import type { Lack } from '../profile'
+import type { Lack } from './profile'
 
 /** Every label command. */
 export const labelCommandNames = [

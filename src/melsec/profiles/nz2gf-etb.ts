@@ -1,8 +1,8 @@
 import type { CommandName } from '../commands/commands'
-import type { Lack, Profile } from '../profile'
 import { noFileFacts, noFiles } from './files'
 import { qAndLLimits } from './limits'
 import { noLabels } from './no-labels'
+import type { Lack, Profile } from './profile'
 import { q } from './q'
 import { networks, openSettings } from './reach'
 

@@ -1,10 +1,11 @@
 // What is left of a profile when its PLC is spoken to in 1E frames: fewer commands and devices, and smaller requests.
-import type { ACompatibleCommandName } from '../a-compatible'
-import { type ACompatibleWindow, aCompatibleLimitSource, aCompatibleLimits } from '../a-compatible-rules'
+import type { ACompatibleCommandName } from '../a-compatible/commands'
+import { type ACompatibleWindow, aCompatibleLimitSource, aCompatibleLimits } from '../a-compatible/rules'
 import { type CommandName, commands } from '../commands/commands'
-import { devices } from '../device'
-import type { LimitRule, Weights } from '../limit'
-import type { DeviceExclusion, DeviceForm, Lack, Profile } from '../profile'
+import { devices } from '../device/device'
+import type { DeviceForm } from '../device/device-form'
+import type { LimitRule, Weights } from '../device/limit-rule'
+import type { DeviceExclusion, Lack, Profile } from './profile'
 
 /** Commands of the SLMP set and what says the same in 1E. */
 export const over1e = {

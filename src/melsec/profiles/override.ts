@@ -1,22 +1,12 @@
 // Merges what a user sets differently into a profile. Nothing is dropped: what cannot be is refused.
-import { RequestError } from '../../errors'
+import { badOption, wholeNumber } from '../../basics/option-checks'
 import { type CommandName, commands } from '../commands/commands'
-import { type DeviceName, findDevice } from '../device'
-import type { LimitRule, LimitUnit } from '../limit'
-import type { Lack, LimitOverrides, Profile, ProfileOverrides } from '../profile'
+import { type DeviceName, findDevice } from '../device/device'
+import type { LimitRule, LimitUnit } from '../device/limit-rule'
+import type { Lack, LimitOverrides, Profile, ProfileOverrides } from './profile'
 
 const SOURCE = 'set by the user'
 const ZR_COUNTED: readonly CommandName[] = ['readRandom', 'entryMonitorDevice']
-
-function bad(field: string, message: string): never {
-  throw new RequestError('BAD_OPTION', message, field)
-}
-
-function whole(value: number, min: number, max: number, field: string): number {
-  if (Number.isInteger(value) && value >= min && value <= max) return value
-  const range = max === Number.MAX_SAFE_INTEGER ? `of at least ${min}` : `from ${min} to ${max}`
-  bad(field, `${field} must be a whole number ${range}, not ${String(value)}.`)
-}
 
 function isCommandName(name: string): name is CommandName {
   return Object.hasOwn(commands, name)
@@ -25,7 +15,7 @@ function isCommandName(name: string): name is CommandName {
 function byCommand<V>(field: string, values: Readonly<Partial<Record<CommandName, V>>>): [CommandName, V][] {
   return Object.entries<V>(values).map(([name, value]) => {
     if (!isCommandName(name))
-      bad(`${field}.${name}`, `There is no command ${name}. Commands: ${Object.keys(commands).join(', ')}.`)
+      badOption(`${field}.${name}`, `There is no command ${name}. Commands: ${Object.keys(commands).join(', ')}.`)
     return [name, value]
   })
 }
@@ -42,16 +32,17 @@ function maximaOf(
 ): ReadonlyMap<LimitUnit, number> {
   const field = `profile.limits.${command}`
   const [only] = units
-  if (only === undefined) bad(field, `${command} has no limit that could be set.`)
+  if (only === undefined) badOption(field, `${command} has no limit that could be set.`)
   if (typeof given === 'number' && units.length > 1) {
     const example = units.map((unit) => `${unit}: ${given}`).join(', ')
-    bad(field, `${command} has several limits; name the one you mean, e.g. { ${example} }.`)
+    badOption(field, `${command} has several limits; name the one you mean, e.g. { ${example} }.`)
   }
   const maxima = new Map<LimitUnit, number>()
   for (const [name, max] of Object.entries(typeof given === 'number' ? { [only]: given } : given)) {
     const unit = units.find((known) => known === name)
-    if (unit === undefined) bad(`${field}.${name}`, `${command} has no limit in ${name}; it has: ${units.join(', ')}.`)
-    maxima.set(unit, whole(max, 1, Number.MAX_SAFE_INTEGER, `${field}.${name}`))
+    if (unit === undefined)
+      badOption(`${field}.${name}`, `${command} has no limit in ${name}; it has: ${units.join(', ')}.`)
+    maxima.set(unit, wholeNumber(`${field}.${name}`, max, 1, Number.MAX_SAFE_INTEGER))
   }
   return maxima
 }
@@ -105,8 +96,8 @@ function lackSet(profile: Profile, command: CommandName, given: true | string, k
 
 function withRanges(profile: Profile, overrides: Readonly<Partial<Record<DeviceName, number>>>): Profile {
   for (const [name, points] of Object.entries(overrides)) {
-    if (findDevice(name) === undefined) bad(`profile.ranges.${name}`, `There is no device ${name}.`)
-    whole(points, 0, Number.MAX_SAFE_INTEGER, `profile.ranges.${name}`)
+    if (findDevice(name) === undefined) badOption(`profile.ranges.${name}`, `There is no device ${name}.`)
+    wholeNumber(`profile.ranges.${name}`, points, 0, Number.MAX_SAFE_INTEGER)
   }
   const { points, source } = profile.ranges
   return { ...profile, ranges: { points: { ...points, ...overrides }, source: `${source}; ${SOURCE}` } }
@@ -114,7 +105,7 @@ function withRanges(profile: Profile, overrides: Readonly<Partial<Record<DeviceN
 
 function withSubcommands(profile: Profile, overrides: NonNullable<ProfileOverrides['subcommands']>): Profile {
   const own = byCommand('profile.subcommands', overrides).map(([command, given]) => {
-    const value = whole(given, 0, 0xffff, `profile.subcommands.${command}`)
+    const value = wholeNumber(`profile.subcommands.${command}`, given, 0, 0xffff)
     return [command, { value, source: SOURCE }] as const
   })
   return { ...profile, subcommands: { ...profile.subcommands, ...Object.fromEntries(own) } }
@@ -122,14 +113,14 @@ function withSubcommands(profile: Profile, overrides: NonNullable<ProfileOverrid
 
 function withInFlight(profile: Profile, overrides: NonNullable<ProfileOverrides['inFlight']>): Profile {
   const { tcp = profile.inFlight.tcp, udpBuffer = profile.inFlight.udpBuffer } = overrides
-  whole(tcp, 1, Number.MAX_SAFE_INTEGER, 'profile.inFlight.tcp')
-  whole(udpBuffer, 0, Number.MAX_SAFE_INTEGER, 'profile.inFlight.udpBuffer')
+  wholeNumber('profile.inFlight.tcp', tcp, 1, Number.MAX_SAFE_INTEGER)
+  wholeNumber('profile.inFlight.udpBuffer', udpBuffer, 0, Number.MAX_SAFE_INTEGER)
   return { ...profile, inFlight: { tcp, udpBuffer, ports: [], source: SOURCE } }
 }
 
 /** SLMP reference manual 5.2, Read Random, footnote *1. */
 function withZrCountsDouble(profile: Profile, double: boolean): Profile {
-  if (typeof double !== 'boolean') bad('profile.zrCountsDouble', 'profile.zrCountsDouble is true or false.')
+  if (typeof double !== 'boolean') badOption('profile.zrCountsDouble', 'profile.zrCountsDouble is true or false.')
   const limits = profile.limits.map((rule) => {
     if (rule.unit !== 'points' || !rule.commands.some((name) => ZR_COUNTED.includes(name))) return rule
     const { twice, ...plain } = rule
@@ -140,17 +131,20 @@ function withZrCountsDouble(profile: Profile, double: boolean): Profile {
 
 function withXyRadix(profile: Profile, xyRadix: 8 | 16): Profile {
   if (xyRadix === 8 || xyRadix === 16) return { ...profile, xyRadix }
-  return bad('profile.xyRadix', `profile.xyRadix is 8 (octal) or 16 (hexadecimal), not ${String(xyRadix)}.`)
+  return badOption('profile.xyRadix', `profile.xyRadix is 8 (octal) or 16 (hexadecimal), not ${String(xyRadix)}.`)
 }
 
 function withWRadix(profile: Profile, wRadix: 10 | 16): Profile {
   if (wRadix === 10 || wRadix === 16) return { ...profile, wRadix }
-  return bad('profile.wRadix', `profile.wRadix is 10 (decimal) or 16 (hexadecimal), not ${String(wRadix)}.`)
+  return badOption('profile.wRadix', `profile.wRadix is 10 (decimal) or 16 (hexadecimal), not ${String(wRadix)}.`)
 }
 
 function withFrame(profile: Profile, frame: Profile['frame']): Profile {
   if (profile.frames.includes(frame)) return { ...profile, frame }
-  return bad('profile.frame', `${profile.title} has no ${String(frame)} frame. Use ${profile.frames.join(' or ')}.`)
+  return badOption(
+    'profile.frame',
+    `${profile.title} has no ${String(frame)} frame. Use ${profile.frames.join(' or ')}.`,
+  )
 }
 
 const FIELDS = {
@@ -169,7 +163,10 @@ const FIELDS = {
 export function withOverrides(profile: Profile, overrides: ProfileOverrides): Profile {
   for (const name of Object.keys(overrides)) {
     if (Object.hasOwn(FIELDS, name)) continue
-    bad(`profile.${name}`, `A profile has no ${name} that could be set. Fields: ${Object.keys(FIELDS).join(', ')}.`)
+    badOption(
+      `profile.${name}`,
+      `A profile has no ${name} that could be set. Fields: ${Object.keys(FIELDS).join(', ')}.`,
+    )
   }
   const { xyRadix, wRadix, frame, limits, lacks, ranges, subcommands, inFlight, zrCountsDouble } = overrides
   let merged = profile

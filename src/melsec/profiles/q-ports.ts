@@ -1,8 +1,8 @@
 // MELSEC-Q when it is known by which port: the CPU's own one, or an Ethernet module.
 import type { CommandName } from '../commands/commands'
-import type { Lack, Profile } from '../profile'
 import { fileCommandNames } from './files'
 import { qAndLLimits } from './limits'
+import type { Lack, Profile } from './profile'
 import { doubtfulOnQAndL, q } from './q'
 import { connectedStation, networks } from './reach'
 

@@ -1,9 +1,9 @@
-import type { DeviceName } from '../device'
-import type { Lack, Profile, StatusRegister } from '../profile'
+import type { DeviceName } from '../device/device'
 import { qFiles } from './files'
 import { qAndLLimits, zrTwice } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
+import type { Lack, Profile, StatusRegister } from './profile'
 import { pointsOf } from './ranges'
 import { networks, openSettings } from './reach'
 

@@ -1,4 +1,4 @@
-import { type DeviceName, devicesOfGroup } from '../device'
+import { type DeviceName, devicesOfGroup } from '../device/device'
 
 /**
  * Points by device. Timers and counters have one number for contact, coil and current value, given by the name the

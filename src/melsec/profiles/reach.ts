@@ -1,4 +1,4 @@
-import type { Reach } from '../profile'
+import type { Reach } from './profile'
 
 /** Of a simulated PLC; what a real port has depends on its open settings. */
 export const openSettings = 'background: 16 open settings'

@@ -1,8 +1,8 @@
 import type { CommandName } from '../commands/commands'
-import type { Lack, Profile } from '../profile'
 import { remoteHeadFiles } from './files'
 import { iqR } from './iq-r'
 import { labelCommandNames } from './no-labels'
+import type { Lack, Profile } from './profile'
 import { networks } from './reach'
 
 const table = 'SLMP reference manual 5.1, table of commands and targets, damaged in the edition at hand'

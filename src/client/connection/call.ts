@@ -1,0 +1,174 @@
+import { checkNames, type OptionNames } from '../../basics/option-checks'
+import { ClosedError, type PlcError, RequestError } from '../../errors'
+import type { BodyLength, Exchange, Job, Priority, ResponseFrame } from '../../link/link'
+import { abortedBeforeSending, asPlcError } from './failure'
+
+/** What every call may say. */
+export interface CallOptions {
+  /** ms from now until nobody waits any more: connecting, queueing, sending and answering included. */
+  readonly timeout?: number
+  readonly signal?: AbortSignal
+  /**
+   * Who asks, as a text or any object. Calls of one caller wait for one another, and callers take turns, so that one who
+   * asks a lot does not keep the others waiting. Without it each call is a caller of its own.
+   */
+  readonly caller?: string | object
+}
+
+/** What this package's own calls may say beside. */
+export interface BoundOptions extends CallOptions {
+  /**
+   * Number of the connection it belongs to: it is not sent on another. What the PLC remembers of a connection, as a file
+   * pointer, may mean something else on the next.
+   */
+  readonly onlyOn?: number
+}
+
+/** A call may wait for a day, as the option `timeout` of the client. */
+const LONGEST = 24 * 60 * 60 * 1000
+
+const OF_EVERY_CALL: OptionNames<CallOptions> = { timeout: true, signal: true, caller: true }
+
+/**
+ * The part of a call's options that every call has.
+ * @param own names of the options that only this kind of call has
+ * @throws RequestError BAD_OPTION for an option that this call does not have: misspelt, it would be the usual one, and
+ *   nobody would notice
+ */
+export function callOptionsOf(given: CallOptions | undefined, own: Readonly<Record<string, true>> = {}): CallOptions {
+  if (given === undefined) return {}
+  checkNames('', given, { ...own, ...OF_EVERY_CALL })
+  const problem = optionProblem(given)
+  if (problem !== undefined) throw problem
+  const { timeout, signal, caller } = given
+  return {
+    ...(timeout === undefined ? {} : { timeout }),
+    ...(signal === undefined ? {} : { signal }),
+    ...(caller === undefined ? {} : { caller }),
+  }
+}
+
+/**
+ * What is wrong with the options of a call. Programs without types pass texts and NaN, and a deadline made of those is
+ * never reached.
+ */
+export function optionProblem(options: CallOptions): RequestError | undefined {
+  if (typeof options !== 'object' || options === null) {
+    return new RequestError('BAD_OPTION', 'The options of a call are an object, e.g. { timeout: 1000 }.', 'options')
+  }
+  const { timeout, signal, caller } = options
+  if (timeout !== undefined && !(typeof timeout === 'number' && timeout > 0 && timeout <= LONGEST)) {
+    const message = `timeout is ${String(timeout)}; it must be a number of milliseconds, more than 0 and at most ${LONGEST}.`
+    return new RequestError('BAD_OPTION', message, 'timeout')
+  }
+  if (signal !== undefined && typeof signal?.addEventListener !== 'function') {
+    return new RequestError('BAD_OPTION', 'signal is no AbortSignal: use the signal of an AbortController.', 'signal')
+  }
+  if (caller !== undefined && typeof caller !== 'string' && (typeof caller !== 'object' || caller === null)) {
+    return new RequestError('BAD_OPTION', 'caller is a text or an object: who asks.', 'caller')
+  }
+  return undefined
+}
+
+/** What happens to the caller's promise. */
+export interface Settle<Head> {
+  /**
+   * Reads the answer; throws what it turned out to be instead. `undefined`: nothing was asked (only connecting).
+   * `roundTrip`: ms from sending to the answer.
+   */
+  readonly answer: (frame: ResponseFrame<Head> | undefined, roundTrip: number) => void
+  readonly fail: (error: PlcError) => void
+}
+
+interface CallFacts {
+  readonly sends?: boolean
+  readonly onlyOn?: number | undefined
+  readonly allowance?: number
+  readonly caller?: unknown
+}
+
+/** One request of the caller: the job the session carries. Settled exactly once. */
+export class Call<Head> implements Job<Head> {
+  #signal: AbortSignal | undefined
+  #unwatch: (() => void) | undefined
+  #settled = false
+  readonly #settle: Settle<Head>
+  /** Set for what opens a locked PLC: until then it returns no self test. */
+  needsNoProof = false
+  /** `false`: the call only waits for the connection. */
+  readonly sends: boolean
+  /** Connection it must be sent on, if on none but that. */
+  readonly onlyOn: number | undefined
+  /** ms it was given in all. */
+  readonly allowance?: number
+  readonly caller: unknown
+
+  constructor(
+    readonly exchange: Exchange<Head, unknown>,
+    readonly deadline: number,
+    settle: Settle<Head>,
+    { sends = true, onlyOn, allowance, caller }: CallFacts = {},
+  ) {
+    this.#settle = settle
+    this.sends = sends
+    this.onlyOn = onlyOn
+    if (allowance !== undefined) this.allowance = allowance
+    this.caller = caller
+  }
+
+  /** What changes the PLC does not wait behind what only asks. */
+  get priority(): Priority {
+    const { effect } = this.exchange
+    return effect === 'read' || effect === 'diagnose' ? 'read' : 'control'
+  }
+
+  get head(): Head {
+    return this.exchange.head
+  }
+
+  get body(): Buffer {
+    return this.exchange.body
+  }
+
+  get responseLength(): BodyLength<Head> {
+    return this.exchange.responseLength
+  }
+
+  /** The signal that may abort it, and what ends the watching: done when the call is settled. */
+  abortedBy(signal: AbortSignal, unwatch: () => void): void {
+    this.#signal = signal
+    this.#unwatch = unwatch
+  }
+
+  /** Settles with the answer. @returns the error the answer turned out to be, if any. */
+  answer(frame: ResponseFrame<Head> | undefined, roundTrip = 0): PlcError | undefined {
+    if (!this.#finish()) return undefined
+    try {
+      this.#settle.answer(frame, roundTrip)
+      return undefined
+    } catch (thrown) {
+      const error = asPlcError(thrown)
+      this.#settle.fail(error)
+      return error
+    }
+  }
+
+  fail(error: PlcError): void {
+    if (this.#finish()) this.#settle.fail(error)
+  }
+
+  /** The error for a call whose signal is aborted. */
+  aborted(outcome: 'notSent' | 'unknown'): ClosedError {
+    const { title } = this.exchange
+    if (outcome === 'notSent') return abortedBeforeSending(title, this.#signal?.reason)
+    const message = `${title} was aborted in flight; whether the PLC carried it out is not known.`
+    return new ClosedError('ABORTED', message, outcome, this.#signal?.reason)
+  }
+
+  #finish(): boolean {
+    if (this.#settled) return false
+    this.#settled = true
+    this.#unwatch?.()
+    return true
+  }
+}

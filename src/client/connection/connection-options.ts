@@ -1,0 +1,81 @@
+// What a connection is told and what it tells.
+import type { EndCodeError } from '../../errors'
+import type { Echo, Exchange, Framing, RequestFrame } from '../../link/link'
+import type { Clock } from '../../transport/clock'
+import type { OpenTransport } from '../../transport/transport'
+import type { Phase, SupervisorOptions } from './supervisor'
+
+/** A frame as it went over the wire. */
+export interface TracedFrame {
+  /** Milliseconds since 1970. */
+  readonly time: number
+  readonly direction: 'sent' | 'received'
+  readonly bytes: Buffer
+}
+
+/**
+ * The state of a connection, for people and programs: `name` narrows the type. `error` is always there in `waiting`, and in
+ * `connecting` and `closed` when the last attempt failed; `nextAttempt` (milliseconds since 1970) is in `waiting` only.
+ */
+export type ConnectionState = Phase & {
+  /** Milliseconds since 1970. */
+  readonly since: number
+  /** Attempts since the last connection that worked. */
+  readonly attempt: number
+}
+
+/** What is known about a silence, for whoever explains it. */
+export interface Silence {
+  /** What was tried, e.g. `tcp 192.168.3.39:5007`. */
+  readonly peer: string
+  /** Whether this PLC ever answered this client. */
+  readonly answeredBefore: boolean
+  /** The only request that it was asked, when it is the client's own that proves the connection. */
+  readonly onlyAsked?: string
+}
+
+/** A request that proves a connection: any answer to it, also a refusal, proves that the PLC is there. */
+export interface Probe<Head> {
+  /** With its number, as people find it in the manual: `Read Type Name (0101)`. */
+  readonly name: string
+  readonly exchange: () => Exchange<Head, unknown>
+}
+
+/** How a locked PLC is opened: before everything else on each connection. */
+export interface Unlocking<Head> {
+  /** `undefined`: there is nothing to unlock. */
+  readonly exchange: () => Exchange<Head, unknown> | undefined
+  /** The refusal would be repeated, and the PLC lock out: no further attempt before `retry()`. */
+  readonly isFinal: (error: EndCodeError) => boolean
+  /** A request was refused because the PLC is locked (again). */
+  readonly isLocked: (error: EndCodeError) => boolean
+}
+
+export interface ConnectionOptions<Head> {
+  readonly framing: Framing<Head>
+  readonly openTransport: OpenTransport
+  readonly clock: Clock
+  readonly supervisor: SupervisorOptions
+  readonly inFlight: number
+  readonly queueLimit: number
+  /** ms */
+  readonly connectTimeout: number
+  /** Default deadline of a call, ms. */
+  readonly timeout: number
+  /** Opens a PLC that is locked by a remote password. */
+  readonly unlocking?: Unlocking<Head>
+  /**
+   * The first request on a new connection, behind unlocking. Where it gets no answer the next one is tried, on another
+   * connection. None: the first request of the program proves the connection.
+   */
+  readonly probes: readonly Probe<Head>[]
+  /**
+   * A request that changes nothing, and how its answer is known among all others: a self test with a pattern that was
+   * not used before. For a fixed local port and a frame without serial number.
+   */
+  readonly proof: () => Echo<Head>
+  /** Ranked causes, most likely first. */
+  readonly explainSilence: (silence: Silence) => readonly string[]
+  readonly onState: (state: ConnectionState) => void
+  readonly onUnsolicited: (frame: RequestFrame<Head>) => void
+}

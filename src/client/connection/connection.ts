@@ -1,0 +1,348 @@
+// One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
+// It knows no protocol family; Exchange and Framing bring that.
+import type { ConnectionError, PlcError } from '../../errors'
+import { type Echo, type Exchange, Fence, type ResponseFrame, RoundTrips, SerialNumbers } from '../../link/link'
+import type { Clock } from '../../transport/clock'
+import { Alarm } from './alarm'
+import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
+import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
+import * as failure from './failure'
+import { Line, type LineOwner, takeAsDone } from './line'
+import { Probing } from './probing'
+import { Signals } from './signals'
+import { Counters, type Statistics } from './statistics'
+import { Supervisor } from './supervisor'
+import { tellListener } from './tell-listener'
+
+export type { ConnectionOptions, ConnectionState, Silence, TracedFrame } from './connection-options'
+
+/** How soon the proof of a fixed port is asked again, as a part of the deadline of a usual call: datagrams get lost. */
+const PROOFS_PER_TIMEOUT = 8
+
+export class Connection<Head> {
+  readonly #options: ConnectionOptions<Head>
+  readonly #clock: Clock
+  readonly #supervisor: Supervisor
+  readonly #counters = new Counters()
+  readonly #alarm: Alarm
+  readonly #signals = new Signals()
+  readonly #owner: LineOwner<Head>
+  readonly #probing: Probing<Head>
+  /** Calls that wait for the connection. */
+  #held: Call<Head>[] = []
+  #line: Line<Head> | undefined
+  #answeredBefore = false
+  #since: number
+  #generation = 0
+  #finishing: Promise<void> | undefined
+  /** Set by the owner to see every frame; costs nothing while unset. */
+  onTrace: ((frame: TracedFrame) => void) | undefined
+
+  constructor(options: ConnectionOptions<Head>) {
+    this.#options = options
+    this.#clock = options.clock
+    this.#supervisor = new Supervisor(options.supervisor)
+    this.#alarm = new Alarm(options.clock, () => this.#guard(() => this.#timeout()))
+    this.#since = options.clock.time()
+    const { explainSilence, framing, proof, probes, timeout } = options
+    const probing = new Probing(probes)
+    this.#probing = probing
+    this.#owner = {
+      counters: this.#counters,
+      serials: new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000)),
+      fence: new Fence(framing, {
+        ask: proof,
+        patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT),
+        onlyAtFirst: framing.correlation === 'serial',
+      }),
+      roundTrips: new RoundTrips(),
+      verified: (answered) => this.#verified(answered),
+      proved: () => {
+        this.#answeredBefore = true
+        this.#supervisor.proved()
+      },
+      lost: (error) => this.#lost(error),
+      schedule: () => this.#schedule(),
+      trace: (direction, bytes) => {
+        if (this.onTrace !== undefined) tellListener(this.onTrace, { time: this.#clock.time(), direction, bytes })
+      },
+      causes: (peer, asked) => {
+        const onlyAsked = asked === undefined ? {} : { onlyAsked: asked }
+        return explainSilence({ peer, answeredBefore: this.#answeredBefore, ...onlyAsked })
+      },
+      get unanswered() {
+        return probing.unanswered
+      },
+    }
+  }
+
+  get state(): ConnectionState {
+    const { phase, attempt } = this.#supervisor
+    const known = { since: this.#since, attempt }
+    if (phase.nextAttempt === undefined) return { ...phase, ...known }
+    return { ...phase, ...known, nextAttempt: this.#clock.time() + phase.nextAttempt - this.#clock.now() }
+  }
+
+  /** Counts the connections that worked: what the PLC remembers per connection is gone when this changes. */
+  get generation(): number {
+    return this.#generation
+  }
+
+  get statistics(): Statistics {
+    return this.#counters.read(this.#waiting(), this.#line?.inFlight ?? 0)
+  }
+
+  /** Sends a request when its turn comes and resolves with its answer. Every rejection is a `PlcError`. */
+  request<T>(exchange: Exchange<Head, T>, options: BoundOptions = {}): Promise<T> {
+    return this.#ask(exchange, options, (answer) => answer)
+  }
+
+  /** As `request`, for how long it took: ms from sending to the answer, without connecting and waiting. */
+  roundTrip(exchange: Exchange<Head, unknown>, options: CallOptions = {}): Promise<number> {
+    return this.#ask(exchange, options, (_answer, roundTrip) => roundTrip)
+  }
+
+  #ask<T, R>(
+    exchange: Exchange<Head, T>,
+    options: BoundOptions,
+    result: (answer: T, roundTrip: number) => R,
+  ): Promise<R> {
+    return new Promise<R>((resolve, fail) => {
+      const answer = (frame: ResponseFrame<Head> | undefined, roundTrip: number) => {
+        if (frame !== undefined) resolve(result(exchange.decode(frame), roundTrip))
+      }
+      this.#submit(exchange, { answer, fail }, options, this.#options.timeout, true)
+    })
+  }
+
+  /** Resolves when the PLC has answered on this connection; keeps the connection up from now on. */
+  connect(options: CallOptions = {}): Promise<void> {
+    const problem = optionProblem(options)
+    if (problem !== undefined) return Promise.reject(problem)
+    const { signal } = options
+    if (signal?.aborted === true) return Promise.reject(failure.abortedBeforeSending(failure.CONNECTING, signal.reason))
+    if (this.#supervisor.name === 'connected') return Promise.resolve()
+    // Longer than an attempt can take with all its probes, so that it ends with the attempt's own reason.
+    const { connectTimeout, supervisor, probes } = this.#options
+    const timeout = Math.max(1, probes.length) * (2 * connectTimeout + supervisor.settleGap) + 1
+    // It only waits and is never sent: what proves the connection is the attempt's own probe.
+    const exchange = connecting(this.#options.proof())
+    return new Promise<void>((resolve, fail) => {
+      this.#submit(exchange, { answer: () => resolve(), fail }, options, timeout, false)
+    })
+  }
+
+  #submit(
+    exchange: Exchange<Head, unknown>,
+    settle: Settle<Head>,
+    options: BoundOptions,
+    usual: number,
+    sends: boolean,
+  ): void {
+    const refusal = optionProblem(options) ?? this.#refusalOf(exchange, options.signal)
+    if (refusal !== undefined) {
+      settle.fail(refusal)
+      return
+    }
+    const { timeout = usual, signal, onlyOn, caller } = options
+    const now = this.#clock.now()
+    const call = new Call(exchange, now + timeout, settle, { sends, onlyOn, allowance: timeout, caller })
+    if (sends) this.#counters.add('requests')
+    if (signal !== undefined) {
+      call.abortedBy(
+        signal,
+        this.#signals.watch(signal, () => this.#guard(() => this.#abort(call))),
+      )
+    }
+    this.#guard(() => this.#start(call))
+  }
+
+  #refusalOf({ title }: Exchange<Head, unknown>, signal: AbortSignal | undefined): PlcError | undefined {
+    const { name, hopeful, error } = this.#supervisor
+    if (name === 'closed' || this.#finishing !== undefined) return failure.closedBeforeSending(title)
+    if (signal?.aborted === true) return failure.abortedBeforeSending(title, signal.reason)
+    if (name !== 'connected' && !hopeful) return this.#offline(title, error)
+    const waiting = this.#waiting()
+    return waiting < this.#options.queueLimit ? undefined : failure.queueFull(title, waiting)
+  }
+
+  #offline(title: string, error: PlcError | undefined): ConnectionError {
+    return this.#supervisor.givenUp ? failure.refusedToUnlock(title, error) : failure.offline(title, error)
+  }
+
+  /** Requests that wait for the connection or for their turn on it. */
+  #waiting(): number {
+    return this.#held.length + (this.#line?.queued ?? 0)
+  }
+
+  #start(call: Call<Head>): void {
+    const expired = this.#expired()
+    if (expired !== undefined) this.#lost(expired)
+    if (call.onlyOn !== undefined && (this.#supervisor.name !== 'connected' || call.onlyOn !== this.#generation)) {
+      call.fail(failure.otherConnection(call.exchange.title))
+      return
+    }
+    if (this.#supervisor.name === 'connected' && this.#line !== undefined) {
+      this.#line.submit(call)
+      this.#line.flush()
+      return
+    }
+    this.#held.push(call)
+    if (this.#supervisor.want()) this.#open()
+    this.#schedule()
+  }
+
+  #abort(call: Call<Head>): void {
+    const held = this.#held.indexOf(call)
+    if (held >= 0) this.#held.splice(held, 1)
+    // A call that nobody knows any more has just been settled in the session: only "unknown" is certain to be true.
+    const sent = held < 0 && (this.#line?.abandon(call) ?? true)
+    if (call.sends) this.#counters.add('aborted')
+    call.fail(call.aborted(sent ? 'unknown' : 'notSent'))
+    this.#line?.flush()
+  }
+
+  #expired(): PlcError | undefined {
+    return this.#supervisor.name === 'connected' ? this.#line?.expired() : undefined
+  }
+
+  /** What the PLC refused for good has been corrected: attempts go on. */
+  retry(): void {
+    this.#line?.correct()
+    if (this.#supervisor.retry()) this.#open()
+  }
+
+  /** Sends a last request if the PLC is there, takes nothing more, and ends everything. */
+  finish(last: Exchange<Head, unknown>, timeout: number): Promise<void> {
+    if (this.#finishing !== undefined) return this.#finishing
+    if (this.#supervisor.name !== 'connected' || this.#expired() !== undefined) {
+      this.close()
+      return Promise.resolve()
+    }
+    // It is a courtesy: whatever becomes of it, the connection ends now.
+    const sent = this.request(last, { timeout }).catch(() => {})
+    this.#finishing = sent.then(() => this.close())
+    return this.#finishing
+  }
+
+  /** Ends everything. Calls in flight are settled with `CLOSED`. */
+  close(): void {
+    if (this.#supervisor.name === 'closed') return
+    this.#supervisor.close()
+    this.#alarm.cancel()
+    const line = this.#line
+    const held = this.#held
+    this.#line = undefined
+    this.#held = []
+    line?.end((call, sent) => call.fail(failure.closedMeanwhile(call, sent ? 'unknown' : 'notSent')))
+    for (const call of held) call.fail(failure.closedMeanwhile(call, 'notSent'))
+    this.#tellState()
+  }
+
+  /** Anything that is thrown here is a bug of this package; the machine beside us must not lose its program to it. */
+  #guard(run: () => void): void {
+    try {
+      run()
+    } catch (error) {
+      this.#lost(failure.asPlcError(error))
+    }
+  }
+
+  #open(): void {
+    this.#counters.add('connects')
+    const line = new Line(this.#options, this.#owner, this.#probing.next)
+    this.#line = line
+    this.#tellState()
+    this.#guard(() => {
+      // A listener may have closed the connection meanwhile.
+      if (this.#line === line) line.open()
+    })
+    this.#schedule()
+  }
+
+  #verified(answered: boolean): void {
+    if (answered) this.#answeredBefore = true
+    this.#probing.answered()
+    this.#generation += 1
+    this.#supervisor.connected(this.#clock.now())
+    // Before anybody is told: what a listener writes now must not go ahead of what waited, and it may close the connection.
+    const held = this.#held
+    this.#held = []
+    for (const call of held) {
+      if (call.sends) this.#line?.submit(call)
+      else call.answer(undefined)
+    }
+    this.#tellState()
+  }
+
+  #lost(error: PlcError): void {
+    if (this.#supervisor.name === 'closed') return
+    const line = this.#line
+    this.#line = undefined
+    const probe = line?.probing
+    const pause = line?.isFinal(error) === true ? Number.POSITIVE_INFINITY : 0
+    if (line !== undefined && probe !== undefined && this.#probing.lost(error)) {
+      const next = this.#probing.next?.probe.name ?? ''
+      this.#supervisor.again(failure.probeUnanswered(line.peer, probe, next, error), this.#clock.now())
+    } else this.#supervisor.lost(error, this.#clock.now(), pause)
+    if (line?.isOpen === true) this.#counters.add('disconnects')
+    line?.end((call, sent) => this.#handedBack(call, sent, error))
+    if (!this.#supervisor.hopeful) {
+      const held = this.#held
+      this.#held = []
+      for (const call of held) call.fail(call.sends ? this.#offline(call.exchange.title, error) : error)
+    }
+    this.#tellState()
+    this.#schedule()
+  }
+
+  /** A call on a connection that is gone. What was sent is never sent again; the rest may wait for the next one. */
+  #handedBack(call: Call<Head>, sent: boolean, reason: PlcError): void {
+    const { title, answered } = call.exchange
+    if (sent && !answered && failure.isGone(reason)) takeAsDone(call)
+    else if (sent) call.fail(failure.lostInFlight(title, reason))
+    else if (call.onlyOn !== undefined) call.fail(failure.otherConnection(title, reason))
+    else if (this.#supervisor.hopeful) this.#held.push(call)
+    else call.fail(failure.offline(title, reason))
+  }
+
+  /** A call that waited for the connection in vain. */
+  #notConnected(call: Call<Head>): void {
+    if (call.sends) this.#counters.add('timeouts')
+    const { peer = 'the PLC', isOpen: open = false, probing: asked } = this.#line ?? {}
+    const causes = open ? this.#owner.causes(peer, asked) : []
+    const attempt = { peer, open, causes, reason: this.#supervisor.error, asked }
+    call.fail(failure.notConnectedInTime(call.sends ? call.exchange.title : undefined, attempt))
+  }
+
+  #tellState(): void {
+    this.#since = this.#clock.time()
+    tellListener(this.#options.onState, this.state)
+  }
+
+  #schedule(): void {
+    if (this.#supervisor.name === 'closed') return
+    let due = this.#line?.nextTimeout() ?? Number.POSITIVE_INFINITY
+    due = Math.min(due, this.#supervisor.nextAttempt ?? Number.POSITIVE_INFINITY)
+    for (const call of this.#held) due = Math.min(due, call.deadline)
+    this.#alarm.set(due)
+  }
+
+  #timeout(): void {
+    const now = this.#clock.now()
+    for (const call of this.#held.filter((held) => held.deadline <= now)) {
+      this.#held.splice(this.#held.indexOf(call), 1)
+      this.#notConnected(call)
+    }
+    if (this.#supervisor.timeout(now)) this.#open()
+    this.#line?.timeout(now)
+    this.#schedule()
+  }
+}
+
+/** Stands for a call that only waits for the connection; the head is as good as any other. */
+function connecting<Head>({ head, responseLength }: Echo<Head>): Exchange<Head, undefined> {
+  const body = Buffer.alloc(0)
+  const nothing = { effect: 'diagnose', message: {}, answered: true, decode: () => undefined } as const
+  return { title: failure.CONNECTING, head, body, responseLength, ...nothing }
+}

@@ -1,0 +1,491 @@
+// The client of a MELSEC PLC: one connection in the background, typed items on top of it.
+import type { DataCode } from '../../codec/codec'
+import type { Exchange } from '../../link/link'
+import type { Command, RequestOf, ResponseOf } from '../../melsec/commands/command'
+import { commands } from '../../melsec/commands/commands'
+import type { Notation } from '../../melsec/device/json'
+import { extendUnitOf, type ModulePlace } from '../../melsec/extend-unit'
+import type { Head3e } from '../../melsec/frame/slmp-frame'
+import type { Profile } from '../../melsec/profiles/profile'
+import type { ClientProtocol, ExchangeOptions } from '../../melsec/protocol'
+import { isPasswordRefusal, isPortLocked } from '../../melsec/remote-password'
+import { type CallOptions, callOptionsOf } from '../connection/call'
+import { Connection, type ConnectionState } from '../connection/connection'
+import { Deadline } from '../connection/deadline'
+import { Listeners } from '../connection/listeners'
+import type { Statistics } from '../connection/statistics'
+import { FileAccess, type Files } from '../file/files'
+import { nameResults } from '../item/about'
+import { checkRequest, isItem, isList, namesOf, namesOfItems } from '../item/input-checks'
+import type { Item } from '../item/item'
+import type { Items, ItemValue, ReadResult, ReadValue, WriteEntry, WriteValue, WriteValues } from '../item/item-value'
+import { byName, checkAllWritten, entriesOf, plainValue } from '../item/many-items'
+import type { ItemExplanation } from '../label/explain'
+import { type Labels, labelsOf } from '../label/labels'
+import { type Monitor, Registration } from '../plan/monitor'
+import type { ReadPlan, WritePlan } from '../plan/plans'
+import type { WriteOptions, WriteResult } from '../plan/write'
+import { type OpenCall, WriteTurns } from '../plan/write-turns'
+import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
+import type { ClientEvents } from './client-events'
+import { type Control, controlOf, type Identity, identify, proofs, selfTestOf } from './control'
+import { explainSilence } from './diagnosis'
+import { filePartsOf } from './file-calls'
+import { ItemAccess } from './item-access'
+import {
+  EXCHANGE_OPTIONS,
+  explainRequest,
+  FORM_OPTION,
+  type NamedRequest,
+  namedRequest,
+  type RequestExplanation,
+} from './named-request'
+import { checkOnDemand, type Unsolicited, unsolicitedOf } from './on-demand'
+import { type MelsecClientOptions, type Settings, settle } from './options'
+import { notPermitted, optionsOfMany, overUdp } from './permission'
+import { probesOf } from './probes'
+import { protocolOf, transportOf } from './protocol-and-transport'
+import { RemotePassword } from './remote-password'
+import type { SendCommand } from './send-command'
+import { Tracer } from './trace'
+
+/** Node.js before 20.5 has no such symbol; programs for it bring one of this name. */
+const asyncDispose: typeof Symbol.asyncDispose = Symbol.asyncDispose ?? Symbol.for('Symbol.asyncDispose')
+
+/** ms that closing may wait for the PLC to close open files, and to lock itself: over TCP the end of the connection does. */
+const CLOSING_TIME = 500
+
+const EVENTS = {
+  state: true,
+  trace: true,
+  ondemand: true,
+  unsolicited: true,
+} as const satisfies Record<keyof ClientEvents, true>
+
+/**
+ * A client of one MELSEC PLC over SLMP (3E or 4E frame). It connects at the first call, stays connected in the
+ * background, and reconnects by itself until `close()`.
+ *
+ * Every rejection is a `PlcError`: its `code` says what, its `outcome` whether the PLC may have carried it out.
+ * @example
+ * const plc = createMelsecClient({ host: '192.168.3.39', port: 5007, profile: 'iq-r' })
+ * const level = await plc.read('D100:REAL')
+ */
+export class MelsecClient {
+  readonly #settings: Settings
+  readonly #protocol: ClientProtocol<Head3e>
+  readonly #connection: Connection<Head3e>
+  readonly #listeners = new Listeners<ClientEvents>(EVENTS, () => this.#traceIfWanted())
+  readonly #tracer: Tracer
+  readonly #registration: Registration
+  readonly #send: SendCommand
+  readonly #turns = new WriteTurns()
+  readonly #items: ItemAccess
+  readonly #files: FileAccess
+  readonly #password: RemotePassword
+  /** As given, without the password. */
+  readonly options: Omit<MelsecClientOptions, 'password'>
+  /** Remote RUN, STOP, PAUSE, latch clear and reset. Needs `allowControl`. */
+  readonly control: Control
+  /** Global labels by name (iQ-R). Writing needs `allowWrites`. */
+  readonly labels: Labels
+  /** Buffer memory of the connected module itself: Memory (0613, 1613). */
+  readonly memory: BufferMemory
+  /** Files on the drives of the CPU. Everything but reading needs `allowWrites`. */
+  readonly files: Files
+
+  constructor(given: MelsecClientOptions) {
+    const settings = settle(given)
+    const { password, ...options } = given
+    this.options = options
+    this.#settings = settings
+    this.#protocol = protocolOf(settings, options)
+    this.#password = new RemotePassword(this.#protocol, password)
+    this.#tracer = new Tracer({
+      ...settings,
+      asciiXy: options.asciiXy,
+      asciiZr: options.asciiZr,
+      kind: settings.transport === 'udp' ? 'datagram' : 'stream',
+    })
+    this.#connection = new Connection({
+      framing: this.#protocol.framing,
+      openTransport: options.openTransport ?? transportOf(settings, options),
+      clock: settings.clock,
+      supervisor: settings,
+      inFlight: settings.inFlight,
+      queueLimit: settings.queueLimit,
+      connectTimeout: settings.connectTimeout,
+      timeout: settings.timeout,
+      unlocking: { exchange: () => this.#password.unlock(), isFinal: isPasswordRefusal, isLocked: isPortLocked },
+      probes: probesOf(this.#protocol, settings.probe),
+      proof: proofs(this.#protocol, settings.random),
+      explainSilence: (silence) =>
+        explainSilence(
+          { ...settings, port: options.port, localPort: options.localPort, frames: settings.profile.frames },
+          silence,
+        ),
+      onState: (state) => this.#changed(state),
+      onUnsolicited: (frame) => this.#cameUnasked(unsolicitedOf(frame, settings, settings.clock.time())),
+    })
+    this.#registration = new Registration(() => this.#connection.generation)
+    this.#send = async (command, message, call) => this.request(command, message, callOptionsOf(call))
+    const { clock, timeout } = settings
+    this.control = controlOf({ send: this.#send, profile: this.#protocol.profile, clock, timeout })
+    this.labels = labelsOf({
+      call: (call) => {
+        const { send } = this.#call(call)
+        return {
+          protocol: this.#protocol,
+          send: async (command, message) => send(this.#protocol.exchange(command, message)),
+        }
+      },
+      permitWrite: () => this.#permit('write', 'Writing'),
+      time: () => settings.clock.time(),
+      format: settings.labelFormat,
+    })
+    this.#items = new ItemAccess({
+      settings,
+      protocol: this.#protocol,
+      registration: this.#registration,
+      call: (call) => this.#call(call),
+      permit: (effect, title) => this.#permit(effect, title),
+    })
+    this.memory = memoryOf(this.#send)
+    this.#files = new FileAccess(
+      filePartsOf({
+        settings,
+        options,
+        protocol: this.#protocol,
+        connection: this.#connection,
+        permit: (effect, title) => this.#permit(effect, title),
+      }),
+    )
+    this.files = this.#files
+  }
+
+  /** The family of PLCs it speaks to, with the overrides merged in. */
+  get profile(): Profile {
+    return this.#settings.profile
+  }
+
+  get code(): DataCode {
+    return this.#settings.code
+  }
+
+  get state(): ConnectionState {
+    return this.#connection.state
+  }
+
+  /** Counters and round-trip times since the client was made. */
+  get statistics(): Statistics {
+    return this.#connection.statistics
+  }
+
+  /**
+   * Listens to an event; does not connect by itself, see `connect()`. @returns what ends it.
+   * @throws RequestError BAD_OPTION when there is no such event; of `ondemand` also when it could never come
+   */
+  on<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
+    if (event === 'ondemand') checkOnDemand(this.#settings, this.options)
+    return this.#listeners.on(event, listener)
+  }
+
+  /** As `on`, for the next event only. @returns what ends it before. @throws RequestError BAD_OPTION as `on` does */
+  once<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
+    if (event === 'ondemand') checkOnDemand(this.#settings, this.options)
+    return this.#listeners.once(event, listener)
+  }
+
+  /** Ends what `on` or `once` began with this function. @throws RequestError BAD_OPTION when there is no such event */
+  off<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): void {
+    this.#listeners.off(event, listener)
+  }
+
+  #traceIfWanted(): void {
+    const tell: Connection<Head3e>['onTrace'] = (frame) => this.#listeners.tell('trace', this.#tracer.entry(frame))
+    this.#connection.onTrace = this.#listeners.has('trace') ? tell : undefined
+  }
+
+  #cameUnasked({ frame, onDemand }: Unsolicited): void {
+    this.#listeners.tell('unsolicited', frame)
+    if (onDemand !== undefined) this.#listeners.tell('ondemand', onDemand)
+  }
+
+  #changed(state: ConnectionState): void {
+    // What a trace was putting together does not go on behind another connection.
+    if (state.name !== 'connected') this.#tracer.reset()
+    this.#listeners.tell('state', state)
+  }
+
+  /** Connects now instead of at the first call. Resolves when the PLC has answered. */
+  async connect(options: CallOptions = {}): Promise<void> {
+    return this.#connection.connect(callOptionsOf(options))
+  }
+
+  /** Ends the connection and every call under way. The client cannot be used again. */
+  async close(): Promise<void> {
+    const released = this.#files.release()
+    if (released !== undefined) await this.#soon(released)
+    const lock = this.#password.lock()
+    if (lock === undefined) this.#connection.close()
+    else await this.#connection.finish(lock, CLOSING_TIME)
+  }
+
+  /** `await using plc = createMelsecClient(...)`: `close()` at the end of the block. */
+  async [asyncDispose](): Promise<void> {
+    await this.close()
+  }
+
+  /** A courtesy to the PLC: whether it comes to its end or not, nobody waits long for it. */
+  #soon(work: Promise<unknown>): Promise<void> {
+    const deadline = new Deadline(this.#settings.clock, {}, CLOSING_TIME)
+    return deadline.wait(work, 'Closing').catch(() => {})
+  }
+
+  /**
+   * Another remote password, from the next connection on. After a refusal this is what makes the client try again.
+   * `undefined`: the PLC has none. @throws RequestError BAD_OPTION
+   */
+  setPassword(password: string | undefined): void {
+    this.#password.set(password)
+    this.#connection.retry()
+  }
+
+  /**
+   * Reads one item, or many in few requests.
+   * One item: its value; throws what went wrong. Many: a result for each, as `readEach`. An object with a text `address`
+   * is one item; to `readEach` and `readValues` it is many, of which one is named address.
+   * @example await plc.read('D100:REAL')
+   * @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' })
+   */
+  read<const I extends Item>(item: I, options?: CallOptions): Promise<ItemValue<I>>
+  read(items: readonly Item[], options?: CallOptions): Promise<ReadResult[]>
+  read<K extends string>(items: Readonly<Record<K, Item>>, options?: CallOptions): Promise<Record<K, ReadResult>>
+  async read(
+    items: Item | Items,
+    options?: CallOptions,
+  ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
+    if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
+    if (!isList(items)) namesOfItems(items, ITEMS)
+    return this.readEach(items, options)
+  }
+
+  /**
+   * Reads many items in few requests, with a result for each: one that cannot be read does not hide the others.
+   */
+  readEach(items: readonly Item[], options?: CallOptions): Promise<ReadResult[]>
+  readEach<K extends string>(items: Readonly<Record<K, Item>>, options?: CallOptions): Promise<Record<K, ReadResult>>
+  readEach(items: Items, options?: CallOptions): Promise<ReadResult[] | Record<string, ReadResult>>
+  async readEach(items: Items, options?: CallOptions): Promise<ReadResult[] | Record<string, ReadResult>> {
+    if (isList(items)) return this.#items.prepare(items).run(options)
+    const names = namesOf(items, ITEMS)
+    return byName(names, await this.#named(names, items, options))
+  }
+
+  /**
+   * Reads many items in few requests and gives plain values.
+   * @throws the first item's error when any item failed.
+   * @example const { level, temperature } = await plc.readValues({ level: 'D100:REAL', temperature: 'D102:REAL' })
+   */
+  readValues<const L extends readonly Item[]>(
+    items: L,
+    options?: CallOptions,
+  ): Promise<{ -readonly [K in keyof L]: ItemValue<L[K]> }>
+  readValues<const R extends Readonly<Record<string, Item>>>(
+    items: R,
+    options?: CallOptions,
+  ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
+  async readValues(items: Items, options?: CallOptions): Promise<unknown> {
+    if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
+    const names = namesOf(items, ITEMS)
+    return byName(names, (await this.#named(names, items, options)).map(plainValue))
+  }
+
+  async #named(names: readonly string[], items: Readonly<Record<string, Item>>, call?: CallOptions) {
+    return nameResults(await this.#items.prepare(names.map((name) => items[name] as Item)).run(call), names)
+  }
+
+  /**
+   * The requests that read these items: to look at (`describe()`), and to run again and again without parsing.
+   * Items that cannot be read keep their error as their result.
+   */
+  plan(items: readonly Item[]): ReadPlan {
+    return this.#items.plan(items)
+  }
+
+  /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
+  #call(options: CallOptions | undefined): OpenCall<Head3e> {
+    const { clock, timeout } = this.#settings
+    const deadline = new Deadline(clock, callOptionsOf(options), timeout)
+    return this.#turns.open(deadline, async (exchange) => {
+      this.#permit(exchange.effect, exchange.title)
+      return this.#connection.request(exchange, deadline.options(exchange.title))
+    })
+  }
+
+  /** What reading the item will touch, for people and editors. @throws RequestError when it is not an item. */
+  explain(item: Item): ItemExplanation {
+    return this.#items.explain(item)
+  }
+
+  /**
+   * Writes one item, or many as `writeValues`. Needs `allowWrites`. When it resolves, everything was written. A write
+   * whose outcome is unknown is never repeated.
+   * @throws WriteError of many, when anything was not written
+   * @example await plc.write('D200:REAL', 71.5)
+   * @example await plc.write({ 'D200:REAL': 71.5, M10: true })
+   */
+  write(item: Item, value: WriteValue, options?: CallOptions & WriteOptions): Promise<void>
+  write(values: WriteValues, options?: CallOptions & WriteOptions): Promise<void>
+  async write(
+    target: Item | WriteValues,
+    second?: WriteValue | (CallOptions & WriteOptions),
+    third?: CallOptions & WriteOptions,
+  ): Promise<void> {
+    if (!isItem(target))
+      return this.writeValues(target, optionsOfMany(second as (CallOptions & WriteOptions) | undefined, third))
+    const [result] = await this.#items.write([{ item: target, value: second as WriteValue }], third)
+    if (result?.ok === false) throw result.error
+  }
+
+  /**
+   * Writes many items, in their order. Needs `allowWrites`. When it resolves, everything was written.
+   * @throws WriteError when anything was not written: its `results` say what became of each item
+   * @example await plc.writeValues({ 'D200:REAL': 71.5, M10: true })
+   */
+  async writeValues(values: WriteValues, options?: CallOptions & WriteOptions): Promise<void> {
+    checkAllWritten(await this.#items.write(entriesOf(values), options))
+  }
+
+  /**
+   * Writes many items as `writeValues` does, with a result for each instead of an error. Look at each of them.
+   * @example const results = await plc.writeEach({ 'D200:REAL': 71.5, M10: true })
+   */
+  writeEach(entries: readonly WriteEntry[], options?: CallOptions & WriteOptions): Promise<WriteResult[]>
+  writeEach<K extends string>(
+    values: Readonly<Record<K, WriteValue>>,
+    options?: CallOptions & WriteOptions,
+  ): Promise<Record<K, WriteResult>>
+  async writeEach(values: WriteValues, options?: CallOptions & WriteOptions): Promise<unknown> {
+    const results = await this.#items.write(entriesOf(values), options)
+    return isList(values) ? results : byName(Object.keys(values), results)
+  }
+
+  /** The requests that write these values: to look at before they are run. */
+  planWrite(entries: readonly WriteEntry[], options: WriteOptions = {}): WritePlan {
+    return this.#items.planWrite(entries, options)
+  }
+
+  /**
+   * Items that are registered in the PLC once and then read with a request that names none of them (0801, 0802).
+   * Where the profile has no monitor commands, Read Random is used instead and `note` says so.
+   */
+  monitor(items: readonly Item[]): Monitor {
+    return this.#items.monitor(items)
+  }
+
+  /**
+   * Sends any declared command.
+   * @example await plc.request(commands.readWords, { head: { device: 'D', number: 100 }, points: 2 })
+   */
+  async request<C extends Command>(
+    command: C,
+    message: RequestOf<C>,
+    options: CallOptions & ExchangeOptions = {},
+  ): Promise<ResponseOf<C>> {
+    const { deadline, send } = this.#call(callOptionsOf(options, EXCHANGE_OPTIONS))
+    checkRequest(command, message, options.form)
+    const exchange = this.#protocol.exchange(command, message, options)
+    if (command.name !== commands.entryMonitorDevice.name) return send(exchange)
+    // The place of a monitor's registration is taken, in its turn: no monitor may read these devices for its own.
+    return this.#registration.inTurn(deadline, command.title, () => {
+      this.#registration.lose()
+      return send(exchange)
+    })
+  }
+
+  /** How X, Y and W are numbered in addresses; without X and Y where nobody knows. */
+  get notation(): Notation {
+    const { xyRadix, wRadix, xyUnknown } = this.#settings
+    return xyUnknown ? { wRadix } : { xyRadix, wRadix }
+  }
+
+  /**
+   * Sends any declared command by its name or code, with its message as JSON: see `messageFromJson`. Execute Monitor also
+   * takes the message of its registration, which is sent before it.
+   * @example await plc.requestByName('readWords', { head: 'D100', points: 2 })   // { values: [..., ...] }
+   */
+  async requestByName(
+    name: string,
+    message: unknown = {},
+    options: CallOptions & Pick<ExchangeOptions, 'form'> = {},
+  ): Promise<Readonly<Record<string, unknown>>> {
+    const call = callOptionsOf(options, FORM_OPTION)
+    const named = namedRequest(name, message, this.notation)
+    if (named.before === undefined) return this.request(named.command, named.message, options)
+    const { deadline, send } = this.#call(call)
+    const [registering, asking] = this.#exchangesOf(named, options)
+    return this.#registration.inTurn(deadline, asking.title, async () => {
+      this.#registration.lose()
+      if (registering !== undefined) await send(registering)
+      return send(asking)
+    })
+  }
+
+  /** What `requestByName` would send. @throws RequestError for what it would refuse before sending, but not permissions */
+  explainRequest(name: string, message: unknown = {}): RequestExplanation {
+    const named = namedRequest(name, message, this.notation)
+    this.#exchangesOf(named, {})
+    return explainRequest(named, this.notation)
+  }
+
+  #exchangesOf({ command, message, before }: NamedRequest, options: Pick<ExchangeOptions, 'form'>) {
+    if (before === undefined) return [undefined, this.#protocol.exchange(command, message, options)] as const
+    if (this.#settings.transport === 'udp') throw overUdp(command.title)
+    const registering = this.#protocol.exchange(before.command, before.message, options)
+    const context = registering.message
+    return [registering, this.#protocol.exchange(command, message, { ...options, context })] as const
+  }
+
+  #permit(effect: Exchange<Head3e, unknown>['effect'], title: string): void {
+    if (effect === 'write' && !this.#settings.allowWrites) throw notPermitted(title, 'allowWrites')
+    if (effect === 'control' && !this.#settings.allowControl) throw notPermitted(title, 'allowControl')
+  }
+
+  /** Who the PLC says it is, with what its model code means. */
+  identify(options?: CallOptions): Promise<Identity> {
+    return identify(this.#send, this.profile, this.#settings.wRadix, options)
+  }
+
+  /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns ms from sending to the answer. */
+  async selfTest(data?: string, options?: CallOptions): Promise<{ readonly roundTrip: number }> {
+    const { deadline } = this.#call(options)
+    const exchange = selfTestOf(this.#protocol, data)
+    return { roundTrip: await this.#connection.roundTrip(exchange, deadline.options(exchange.title)) }
+  }
+
+  /**
+   * Buffer memory of a MELSEC-Q module on the base: Extend Unit (0601, 1601). Nothing is sent yet.
+   * @throws RequestError BAD_OPTION when the module is not in the manual's table
+   * @example const [setting] = await plc.module('Q62DA', { startIo: 0x30 }).read(0x18, 1)
+   */
+  module(model: string, place: ModulePlace): BufferMemory {
+    return moduleOf(this.#send, extendUnitOf(model, place))
+  }
+
+  /** Clears the error codes of the connected module and turns its error LED off. Needs `allowControl`. */
+  async clearError(options?: CallOptions): Promise<void> {
+    await this.#send(commands.clearError, {}, options)
+  }
+}
+
+const ITEMS = 'Items to read are one item, a list of items, or an object of items by name'
+
+/**
+ * Makes a client. Nothing is connected before the first call or `connect()`.
+ * @throws RequestError BAD_OPTION naming the option that is wrong.
+ * @example const plc = createMelsecClient({ host: '192.168.3.39', port: 5007, profile: 'iq-f' })
+ */
+export function createMelsecClient(options: MelsecClientOptions): MelsecClient {
+  return new MelsecClient(options)
+}

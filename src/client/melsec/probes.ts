@@ -1,0 +1,50 @@
+// The requests that prove a connection, by the option `probe`.
+import { RequestError } from '../../errors'
+import { aCompatibleCommands } from '../../melsec/a-compatible/commands'
+import { commands } from '../../melsec/commands/commands'
+import type { Head3e } from '../../melsec/frame/slmp-frame'
+import { over1e } from '../../melsec/profiles/over-1e'
+import { lackOf, type Profile } from '../../melsec/profiles/profile'
+import type { ClientProtocol } from '../../melsec/protocol'
+import type { Probe } from '../connection/connection-options'
+
+/**
+ * `typeName`: Read Type Name. `read`: a Read of D0. `auto`: the type name, and where that gets no answer the Read.
+ * `none`: nothing is asked; the first request of the program proves the connection.
+ */
+export const probeKinds = ['auto', 'typeName', 'read', 'none'] as const
+export type ProbeKind = (typeof probeKinds)[number]
+
+type Asked = 'readTypeName' | 'readWords'
+
+const ORDER = {
+  auto: ['readTypeName', 'readWords'],
+  typeName: ['readTypeName'],
+  read: ['readWords'],
+  none: [],
+} as const satisfies Readonly<Record<ProbeKind, readonly Asked[]>>
+
+/** @throws RequestError BAD_OPTION when the PLC is known not to have the only request that is wanted. */
+export function checkProbe(profile: Profile, kind: ProbeKind): ProbeKind {
+  const lack = kind === 'typeName' ? lackOf(profile, 'readTypeName') : undefined
+  if (lack === undefined) return kind
+  const message = `${profile.title} does not have ${commands.readTypeName.title}: ${lack.reason} Set probe to auto or read.`
+  throw new RequestError('BAD_OPTION', message, 'probe')
+}
+
+export function probesOf(protocol: ClientProtocol<Head3e>, kind: ProbeKind): readonly Probe<Head3e>[] {
+  const exchanges = {
+    readTypeName: () => protocol.exchange(commands.readTypeName, {}),
+    readWords: () => protocol.exchange(commands.readWords, { head: { device: 'D', number: 0 }, points: 1 }),
+  } as const satisfies Readonly<Record<Asked, Probe<Head3e>['exchange']>>
+  return ORDER[kind]
+    .filter((name) => lackOf(protocol.profile, name) === undefined)
+    .map((name) => ({ name: nameOf(protocol.profile, name), exchange: exchanges[name] }))
+}
+
+/** As the manuals call it, with its number: `Read Type Name (0101)`. */
+function nameOf({ frame }: Profile, name: Asked): string {
+  const { title, code } = frame === '1E' ? aCompatibleCommands[over1e[name]] : commands[name]
+  const number = code.toString(16).toUpperCase()
+  return `${title} (${frame === '1E' ? `${number.padStart(2, '0')}H` : number.padStart(4, '0')})`
+}

@@ -1,0 +1,262 @@
+// Which requests a read plan consists of, and what refusals taught about them.
+import { type EndCodeError, RequestError } from '../../errors'
+import type { CommandName } from '../../melsec/commands/commands'
+import { commands } from '../../melsec/commands/commands'
+import type { AddressOptions } from '../../melsec/device/address'
+import type { Notation } from '../../melsec/device/json'
+import { limitsOf } from '../../melsec/device/limit'
+import { explainEndCode } from '../../melsec/end-codes/end-code'
+import { addressOptionsOf } from '../../melsec/profiles/profile'
+import type { ClientProtocol } from '../../melsec/protocol'
+import { about } from '../item/about'
+import type { ParsedItem, RefusedItem } from '../item/item'
+import type { Stretch } from './chunk'
+import { Areas, type Piece, pieceOf, piecesOf, readLayout } from './layout'
+import { type Draft, type PackOptions, packed } from './pack'
+import { bodyBytes, type PreparedRead, prepareRead } from './request'
+import { type Place, placeOf } from './value'
+
+/** The notation is that of descriptions; default: the profile's. */
+export interface ReadShapeOptions extends Notation {
+  /** Words that may be read in vain to merge near items into one request. */
+  readonly gap: number
+}
+
+/** One request of the plan and where its values go. */
+export interface ReadStep<Head> {
+  readonly prepared: PreparedRead<Head>
+  readonly pieces: readonly Piece[]
+  readonly places: readonly Place[]
+  /** How much was learnt: `planned` as drawn up, `merged` again after a refusal, `settled` as it was once answered. */
+  readonly stage: 'planned' | 'merged' | 'settled'
+  readonly without: PackOptions['without']
+}
+
+/** A part of a divided request and how it ended. `lost`: it says nothing about its items. */
+export interface Leaf<Head> {
+  readonly step: ReadStep<Head>
+  readonly outcome: 'read' | 'lost' | EndCodeError
+}
+
+/** Whether the end code may be about a single item of the request. A code no answer is known to carry may be. */
+function isAboutItems({ endCode }: EndCodeError): boolean {
+  const explained = explainEndCode(endCode)
+  return explained === undefined || !explained.exact || !explained.answer || explained.aboutDevice
+}
+
+/** After so many runs, items that were refused together are tried one by one again: the PLC may have been changed. */
+const TRY_AGAIN = 32
+
+export class ReadShape<Head> {
+  /** Items that cannot be asked for. */
+  readonly errors = new Map<number, RequestError>()
+  readonly #items: readonly (ParsedItem | RefusedItem)[]
+  readonly #protocol: ClientProtocol<Head>
+  readonly #areas: Areas
+  readonly #gap: number
+  readonly #address: AddressOptions
+  readonly #parts = new Map<number, number>()
+  #steps: readonly ReadStep<Head>[]
+  /** Requests all of whose items were refused one by one, with this end code. */
+  readonly #hopeless = new WeakMap<ReadStep<Head>, { readonly endCode: number; runs: number }>()
+  readonly #refusals = new Map<number, string>()
+  readonly #commandNotes = new Set<string>()
+
+  constructor(
+    items: readonly (ParsedItem | RefusedItem)[],
+    protocol: ClientProtocol<Head>,
+    { gap, ...notation }: ReadShapeOptions,
+  ) {
+    if (!Number.isInteger(gap) || gap < 0) {
+      throw new RequestError('BAD_OPTION', `gap is a whole number of words from 0, not ${String(gap)}.`, 'gap')
+    }
+    this.#items = items
+    this.#protocol = protocol
+    this.#areas = new Areas(protocol, 'read')
+    this.#gap = gap
+    this.#address = addressOptionsOf(protocol.profile, notation)
+    const pieces = items.flatMap((item, index) => this.#piecesOf(item, index))
+    this.#steps = this.#built(pieces, { gap, without: new Set() }, 'planned')
+  }
+
+  get steps(): readonly ReadStep<Head>[] {
+    return this.#steps
+  }
+
+  /** Pieces an item is cut into, 1 unless it is larger than one Read; 0 when it cannot be asked for. */
+  partsOf(item: number): number {
+    return this.#parts.get(item) ?? 0
+  }
+
+  #piecesOf(item: ParsedItem | RefusedItem, index: number): Piece[] {
+    if ('error' in item) {
+      this.errors.set(index, item.error)
+      return []
+    }
+    try {
+      const pieces = piecesOf(this.#areas, readLayout(this.#areas, item), item, index)
+      for (const piece of pieces) prepareRead(this.#protocol, alone(piece), this.#address)
+      this.#parts.set(index, pieces.length)
+      return pieces
+    } catch (error) {
+      if (!(error instanceof RequestError)) throw error
+      this.errors.set(index, about(error, [{ item: item.text }]))
+      return []
+    }
+  }
+
+  #built(pieces: readonly Piece[], options: PackOptions, stage: ReadStep<Head>['stage']): ReadStep<Head>[] {
+    const prepare = (draft: Draft) => prepareRead(this.#protocol, draft, this.#address)
+    const drafts = packed(this.#areas, pieces, options, (draft) => bodyBytes(prepare(draft)))
+    return drafts.map((draft) => this.#stepOf(prepare(draft), options.without, stage))
+  }
+
+  #stepOf(
+    prepared: PreparedRead<Head>,
+    without: PackOptions['without'],
+    stage: ReadStep<Head>['stage'],
+  ): ReadStep<Head> {
+    const runs = [...prepared.offsets]
+    const pieces = runs.flatMap(([run]) => run.members)
+    const places = runs.flatMap(([run, offset]) =>
+      run.members.flatMap((piece) => {
+        const item = this.#items[piece.item]
+        return item === undefined || 'error' in item ? [] : [placeOf(piece, item, offset, run.from)]
+      }),
+    )
+    return { prepared, pieces, places, stage, without }
+  }
+
+  /** Whether a smaller request may be answered: the end code is about a device, or about the size of the request. */
+  mayHelp({ prepared: { command, form } }: ReadStep<Head>, refusal: EndCodeError): boolean {
+    const { profile, code } = this.#protocol
+    const limits = limitsOf(profile, command, form, code)
+    return isAboutItems(refusal) || limits.some(({ endCode }) => endCode === refusal.endCode)
+  }
+
+  /**
+   * Smaller requests for what a refused one asked for: without the command when the refusal is about that, else its
+   * halves without gaps, else bits in bit units instead of their words. Empty when there is nothing smaller.
+   */
+  divided(step: ReadStep<Head>, refusal: EndCodeError): readonly ReadStep<Head>[] {
+    const { pieces, without, prepared } = step
+    const { command } = prepared
+    if ((command === 'readRandom' || command === 'readBlock') && !this.mayHelp(step, refusal)) {
+      const parts = this.#built(pieces, { gap: this.#gap, without: new Set([...without, command]) }, 'settled')
+      if (parts.every((part) => part.prepared.command !== command)) return parts
+    }
+    const half = Math.ceil(pieces.length / 2)
+    if (half < pieces.length) {
+      const halves = [pieces.slice(0, half), pieces.slice(half)]
+      return halves.flatMap((part) => this.#built(part, { gap: 0, without }, 'settled'))
+    }
+    const exact = pieces[0] === undefined ? undefined : this.#exact(pieces[0])
+    return exact === undefined ? [] : this.#built([exact], { gap: 0, without }, 'settled')
+  }
+
+  /** The same piece with nothing beside it read: `undefined` when it is so already, or cannot be. */
+  #exact({ item: index, part, first, count, layout }: Piece): Piece | undefined {
+    const item = this.#items[index]
+    if (layout.area.kind === 'bit' || item === undefined || 'error' in item) return undefined
+    try {
+      const exact = readLayout(this.#areas, item, true)
+      if (exact === undefined) return undefined
+      const piece = pieceOf(exact, index, part, first, count)
+      return piece.to - piece.from <= this.#areas.capacity(exact.area) ? piece : undefined
+    } catch (error) {
+      if (error instanceof RequestError) return undefined
+      throw error
+    }
+  }
+
+  /** Whether all items of this request were refused one by one with this code, so that dividing it is of no use. */
+  isHopeless(step: ReadStep<Head>, { endCode }: EndCodeError): boolean {
+    const known = this.#hopeless.get(step)
+    if (known?.endCode !== endCode) return false
+    known.runs++
+    return known.runs % TRY_AGAIN !== 0
+  }
+
+  /** A request was answered: what was noted against its items no longer holds. */
+  answered(step: ReadStep<Head>): void {
+    if (this.#refusals.size === 0) return
+    this.#hopeless.delete(step)
+    for (const { item } of step.pieces) this.#refusals.delete(item)
+  }
+
+  /** Puts what was learnt from a refusal in the place of the refused request. */
+  learn(step: ReadStep<Head>, refusal: EndCodeError, leaves: readonly Leaf<Head>[]): void {
+    // Another run of the same plan may have learnt it already.
+    if (!this.#steps.includes(step)) return
+    const read = leaves.flatMap((leaf) => (leaf.outcome === 'read' ? [leaf.step] : []))
+    const steps = [...this.#merged(step, refusal, read), ...this.#refusedSteps(leaves)]
+    this.#steps = this.#steps.flatMap((old) => (old === step ? steps : [old]))
+    this.#noteCommand(step, refusal, read)
+  }
+
+  /** Requests for what could be read: merged once more, or, when that was refused too, as they were answered. */
+  #merged(step: ReadStep<Head>, refusal: EndCodeError, read: readonly ReadStep<Head>[]): readonly ReadStep<Head>[] {
+    if (step.stage !== 'planned' || read.length < 2) return read
+    const pieces = read.flatMap((leaf) => leaf.pieces)
+    const without = new Set(read.flatMap((leaf) => [...leaf.without]))
+    const gap = this.mayHelp(step, refusal) ? 0 : this.#gap
+    return this.#built(pieces, { gap, without }, 'merged')
+  }
+
+  /** What was refused one by one is asked for together again: one request for each end code, not one for each item. */
+  #refusedSteps(leaves: readonly Leaf<Head>[]): ReadStep<Head>[] {
+    const byCode = new Map<number, ReadStep<Head>[]>()
+    for (const { step, outcome } of leaves) {
+      if (typeof outcome === 'string') continue
+      for (const { item } of step.pieces) {
+        this.#refusals.set(item, `${this.#text(item)} is read apart from the others. ${outcome.message}`)
+      }
+      byCode.set(outcome.endCode, [...(byCode.get(outcome.endCode) ?? []), step])
+    }
+    return [...byCode].flatMap(([endCode, refused]) => {
+      const pieces = refused.flatMap((step) => step.pieces)
+      const without = new Set(refused.flatMap((step) => [...step.without]))
+      const steps = refused.length === 1 ? refused : this.#built(pieces, { gap: 0, without }, 'settled')
+      for (const step of steps) this.#hopeless.set(step, { endCode, runs: 0 })
+      return steps
+    })
+  }
+
+  #noteCommand(
+    { prepared: { command } }: ReadStep<Head>,
+    refusal: EndCodeError,
+    read: readonly ReadStep<Head>[],
+  ): void {
+    if (!read.some(({ without }) => without.has(command))) return
+    this.#commandNotes.add(`${titleOf(command)} is not used, because the PLC refused it. ${refusal.message}`)
+  }
+
+  #text(item: number): string {
+    return this.#items[item]?.text ?? ''
+  }
+
+  #requestsOf(item: number): number {
+    return this.#steps.filter(({ pieces }) => pieces.some((piece) => piece.item === item)).length
+  }
+
+  notes(): string[] {
+    const torn = [...this.#parts].flatMap(([item, parts]) => {
+      const requests = parts < 2 ? 1 : this.#requestsOf(item)
+      if (requests < 2) return []
+      return [`${this.#text(item)} is read by ${requests} requests: its values may be of different moments.`]
+    })
+    const bad = [...this.errors].map(([item, error]) => `${this.#text(item)} is not read. ${error.message}`)
+    return [...torn, ...bad, ...this.#commandNotes, ...this.#refusals.values()]
+  }
+}
+
+function titleOf(command: CommandName): string {
+  return commands[command].title
+}
+
+/** A request for one piece and nothing else. */
+function alone(piece: Piece): Draft {
+  const { area } = piece.layout
+  const run: Stretch = { area, from: piece.from, to: piece.to, members: [piece] }
+  return area.ways.direct === undefined ? { kind: 'random', runs: [run] } : { kind: 'direct', run }
+}

@@ -1,0 +1,98 @@
+// Values out of the words of an answer, by numbers that were worked out when the plan was made: nothing is parsed here.
+import {
+  decodeArray,
+  decodeValue,
+  type PlcValue,
+  type ValueFormat,
+  type ValueType,
+  type Words,
+  wordsOf,
+} from '../../value/value'
+import { wordAt } from '../../value/word'
+import type { ParsedItem } from '../item/item'
+import type { Layout, Piece } from './layout'
+
+/** Where the values of a piece stand in the words of an answer; bits are counted from the lowest of word 0. */
+export interface Place {
+  readonly item: number
+  readonly part: number
+  readonly at: number
+  readonly width: number
+  readonly step: number
+  readonly pitch: number
+  readonly count: number
+  /** `values`: words as they stand; `bits`: BOOL; `digits`: numbers put together from their bits. */
+  readonly kind: 'values' | 'bits' | 'digits'
+  readonly isArray: boolean
+  readonly type: ValueType
+  readonly format: ValueFormat
+}
+
+/** @param from bit of the answer's words at which cell `cell` starts */
+export function placeOf(piece: Piece, item: ParsedItem, from: number, cell: number): Place {
+  const { layout, first, count } = piece
+  const { start, width, step, pitch, area } = layout
+  const at = from + start + first * pitch - cell * area.bitsPerCell
+  return {
+    item: piece.item,
+    part: piece.part,
+    at,
+    width,
+    step,
+    pitch,
+    count,
+    kind: item.type.name === 'BOOL' ? 'bits' : isWhole(layout, at) ? 'values' : 'digits',
+    isArray: item.count !== undefined,
+    type: item.type,
+    format: item.format,
+  }
+}
+
+/** Whether every value is words of their own. */
+function isWhole({ width, step, pitch }: Layout, at: number): boolean {
+  return step === 1 && [width, pitch, at].every((bits) => bits % 16 === 0)
+}
+
+/** @throws ProtocolError BAD_FIELD when the words are no value of the type. */
+export function valueAt(words: Words, place: Place): PlcValue | PlcValue[] {
+  const { kind, at, type, format, isArray, count } = place
+  if (kind === 'bits') return isArray ? bitsAt(words, place) : isSet(words, at)
+  if (kind === 'values' && !isArray) return decodeValue(type, words, at / 16, format)
+  if (kind === 'values' && place.pitch === place.width) return decodeArray(type, words, at / 16, count, format)
+  const gathered = kind === 'values' ? recordsAt(words, place) : digitsAt(words, place)
+  return isArray ? decodeArray(type, gathered, 0, count, format) : decodeValue(type, gathered, 0, format)
+}
+
+function isSet(words: Words, bit: number): boolean {
+  return ((wordAt(words, bit >> 4) >> (bit & 15)) & 1) === 1
+}
+
+function bitsAt(words: Words, { at, pitch, count }: Place): boolean[] {
+  const out = new Array<boolean>(count)
+  for (let k = 0; k < count; k++) out[k] = isSet(words, at + k * pitch)
+  return out
+}
+
+/** The values of long timers: the first words of each record. */
+function recordsAt(words: Words, { at, width, pitch, count }: Place): number[] {
+  const out: number[] = []
+  for (let k = 0; k < count; k++) {
+    const from = (at + k * pitch) / 16
+    for (let word = 0; word < width / 16; word++) out.push(wordAt(words, from + word))
+  }
+  return out
+}
+
+/** Numbers of any count of bits, each in the words of its type, filled up with 0. */
+function digitsAt(words: Words, { at, width, step, pitch, count, type }: Place): number[] {
+  const size = wordsOf(type)
+  const out = new Array<number>(size * count).fill(0)
+  for (let k = 0; k < count; k++) {
+    for (let j = 0; j < width; j++) {
+      if (!isSet(words, at + k * pitch + j * step)) continue
+      const word = k * size + (j >> 4)
+      out[word] = (out[word] ?? 0) | (1 << (j & 15))
+    }
+  }
+  return out
+}

@@ -1,0 +1,218 @@
+// From a batch to what is sent: one Write or Write Random, or a Read and a Write for bits of words.
+import { ClosedError, ConnectionError, PlcError, ProtocolError, TimeoutError } from '../../errors'
+import type { Exchange } from '../../link/link'
+import { commands } from '../../melsec/commands/commands'
+import type { AddressOptions } from '../../melsec/device/address'
+import type { ClientProtocol } from '../../melsec/protocol'
+import { type Area, addressAt } from './area'
+import type { Stretch } from './chunk'
+import type { Areas } from './layout'
+import { type Prepared, pointsText, prepareRead, rangeText, type SendExchange } from './request'
+import type { Batch } from './write-batch'
+import type { WriteUnit } from './write-unit'
+
+/** One write, ready to be sent. */
+export interface WriteStep<Head> {
+  readonly units: readonly WriteUnit[]
+  /** What it sends: the write, and before it the read of words that are written back. */
+  readonly prepared: readonly Prepared<Head>[]
+  /** Rejects with an error whose outcome is that of the write. */
+  perform(send: SendExchange<Head>): Promise<void>
+}
+
+export interface WriteContext<Head> {
+  readonly protocol: ClientProtocol<Head>
+  /** Areas as they are read, for words that are read before they are written. */
+  readonly readAreas: Areas
+  readonly options: AddressOptions
+}
+
+/** @throws RequestError when the request cannot be sent. */
+export function prepareWrite<Head>(context: WriteContext<Head>, batch: Batch): WriteStep<Head> {
+  if (batch.kind === 'masked') return readModifyWrite(context, batch.units)
+  const prepared = batch.kind === 'direct' ? direct(context, batch.units) : random(context, batch.units)
+  const { exchange } = prepared
+  return {
+    units: batch.units,
+    prepared: [prepared],
+    perform: async (send) => {
+      await send(exchange)
+    },
+  }
+}
+
+function direct<Head>({ protocol, options }: WriteContext<Head>, units: readonly WriteUnit[]): Prepared<Head> {
+  const ordered = [...units].sort((a, b) => a.from - b.from)
+  const area = areaOf(units)
+  const from = ordered[0]?.from ?? 0
+  const head = addressAt(area, from)
+  const bits = ordered.flatMap(({ content }) => (content.kind === 'bits' ? content.bits : []))
+  const words = ordered.flatMap(({ content }) => (content.kind === 'words' ? content.words : []))
+  const points = area.kind === 'bit' ? bits.length : words.length
+  const text = `${rangeText(area, from, ordered.at(-1)?.to ?? from, options)}, ${pointsText(points)}`
+  const { form } = area.ways
+  return area.kind === 'bit'
+    ? {
+        command: 'writeBits',
+        form,
+        points,
+        text,
+        exchange: protocol.exchange(commands.writeBits, { head, values: bits }),
+      }
+    : {
+        command: 'writeWords',
+        form,
+        points,
+        text,
+        exchange: protocol.exchange(commands.writeWords, { head, values: words }),
+      }
+}
+
+function random<Head>({ protocol }: WriteContext<Head>, units: readonly WriteUnit[]): Prepared<Head> {
+  const { form } = areaOf(units).ways
+  const bits = units.flatMap(({ area, from, content }) =>
+    content.kind === 'bits' ? content.bits.map((value, i) => ({ device: addressAt(area, from + i), value })) : [],
+  )
+  if (bits.length > 0) {
+    return {
+      command: 'writeRandomBits',
+      form,
+      points: bits.length,
+      text: pointsText(bits.length, 'bit'),
+      exchange: protocol.exchange(commands.writeRandomBits, { bits }),
+    }
+  }
+  const scattered = units.map(scatter)
+  const words = scattered.flatMap((one) => one.words)
+  const doubleWords = scattered.flatMap((one) => one.doubleWords)
+  return {
+    command: 'writeRandomWords',
+    form,
+    points: words.length + doubleWords.length,
+    text: `${pointsText(words.length, 'word')}, ${pointsText(doubleWords.length, 'double word')}`,
+    exchange: protocol.exchange(commands.writeRandomWords, { words, doubleWords }),
+  }
+}
+
+type DeviceValue = { readonly device: ReturnType<typeof addressAt>; readonly value: number }
+
+/** Words in pairs, so that the PLC writes the two words of a number in one step. */
+function scatter({ area, from, content }: WriteUnit): { words: DeviceValue[]; doubleWords: DeviceValue[] } {
+  const found: { words: DeviceValue[]; doubleWords: DeviceValue[] } = { words: [], doubleWords: [] }
+  if (content.kind !== 'words') return found
+  const { words } = content
+  for (let at = 0; at < words.length; at += 2) {
+    const device = addressAt(area, from + (area.kind === 'record' ? at / 2 : at))
+    const low = words[at] ?? 0
+    const high = words[at + 1]
+    if (high === undefined) found.words.push({ device, value: low })
+    else found.doubleWords.push({ device, value: low + high * 0x10000 })
+  }
+  return found
+}
+
+function areaOf(units: readonly WriteUnit[]): Area {
+  const area = units[0]?.area
+  if (area === undefined) throw new Error('a request without a unit')
+  return area
+}
+
+/** One word of which some bits are set. */
+interface MaskedWord {
+  readonly area: Area
+  readonly cell: number
+  mask: number
+  word: number
+}
+
+function maskedWords(units: readonly WriteUnit[]): MaskedWord[] {
+  const found = new Map<string, MaskedWord>()
+  for (const { area, from, content } of units) {
+    if (content.kind !== 'masked') continue
+    content.masks.forEach((mask, i) => {
+      const key = `${area.key} ${from + i}`
+      const known = found.get(key)
+      const word = content.words[i] ?? 0
+      if (known === undefined) found.set(key, { area, cell: from + i, mask, word })
+      else {
+        known.mask |= mask
+        known.word |= word
+      }
+    })
+  }
+  return [...found.values()]
+}
+
+function readModifyWrite<Head>(context: WriteContext<Head>, units: readonly WriteUnit[]): WriteStep<Head> {
+  const { protocol, readAreas, options } = context
+  const targets = maskedWords(units)
+  const runs = targets.map(({ area, cell }): Stretch => {
+    // Cell 0, because cells of a modified address are counted from it.
+    const readArea = readAreas.find('word', addressAt(area, 0))
+    return { area: readArea, from: cell, to: cell + 1, members: [] }
+  })
+  const row = inRow(targets, runs)
+  const read = prepareRead(
+    protocol,
+    row === undefined ? { kind: 'random', runs } : { kind: 'direct', run: row },
+    options,
+  )
+  const write = (words: readonly number[]) =>
+    row === undefined
+      ? protocol.exchange(commands.writeRandomWords, {
+          words: targets.map(({ area, cell }, i) => ({ device: addressAt(area, cell), value: words[i] ?? 0 })),
+          doubleWords: [],
+        })
+      : protocol.exchange(commands.writeWords, { head: addressAt(areaOf(units), row.from), values: words })
+  return {
+    units,
+    prepared: [read, describedWrite(units, row === undefined, write(targets.map(() => 0)), targets.length)],
+    perform: async (send) => {
+      const words = await beforeWriting(read.fetch(send))
+      await send(write(targets.map(({ mask, word }, i) => ((words[i] ?? 0) & ~mask & 0xffff) | word)))
+    },
+  }
+}
+
+function describedWrite<Head>(
+  units: readonly WriteUnit[],
+  isRandom: boolean,
+  exchange: Exchange<Head, unknown>,
+  points: number,
+): Prepared<Head> {
+  return {
+    command: isRandom ? 'writeRandomWords' : 'writeWords',
+    form: areaOf(units).ways.form,
+    points,
+    text: `${pointsText(points, 'word')} with changed bits`,
+    exchange,
+  }
+}
+
+/** The words as one row, when they are one that Read and Write can take. */
+function inRow(targets: readonly MaskedWord[], runs: readonly Stretch[]): Stretch | undefined {
+  const [first] = runs
+  const [target] = targets
+  if (first === undefined || target === undefined) return undefined
+  if (target.area.ways.direct === undefined || first.area.ways.direct === undefined) return undefined
+  const isRow = runs.every(({ area, from }, i) => area === first.area && from === first.from + i)
+  return isRow ? { ...first, to: first.from + runs.length } : undefined
+}
+
+/** A failure of the read before the write: nothing has been written, whatever became of the read. */
+async function beforeWriting<T>(reading: Promise<T>): Promise<T> {
+  try {
+    return await reading
+  } catch (error) {
+    throw notWritten(error)
+  }
+}
+
+function notWritten(error: unknown): unknown {
+  if (!(error instanceof PlcError) || error.outcome !== 'unknown') return error
+  const message = `Nothing was written, because the word could not be read before: ${error.message}`
+  if (error instanceof TimeoutError) return new TimeoutError(message, 'notSent', error.causes)
+  if (error instanceof ConnectionError) return new ConnectionError(error.code, message, 'notSent', error, error.causes)
+  if (error instanceof ClosedError) return new ClosedError(error.code, message, 'notSent', error)
+  return error instanceof ProtocolError ? new ConnectionError('DISCONNECTED', message, 'notSent', error) : error
+}

@@ -1,8 +1,0 @@
-/** Tells a listener, whose mistakes must not stop the connection; whoever registered it reports them. */
-export function tell<T>(listener: (event: T) => void, event: T): void {
-  try {
-    listener(event)
-  } catch {
-    // MelsecClient catches and reports what its own listeners throw.
-  }
-}

@@ -1,0 +1,166 @@
+import { hex } from '../../basics/hex'
+import { type DataCode, readerOf } from '../../codec/codec'
+import { EndCodeError, RequestError } from '../../errors'
+import { HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/link'
+import { checkAddress } from '../device/access'
+import { FORM_XY_OCTAL } from '../device/codec'
+import type { DeviceAddress } from '../device/device'
+import { explainEndCode } from '../end-codes/end-code'
+import { frame1e, type Head1e } from '../frame/frame-1e'
+import { type ACompatibleCommandName, aCompatibleCommands } from './commands'
+import {
+  type ACompatibleFamily,
+  type ACompatibleFamilyId,
+  aCompatibleFamilies,
+  aCompatibleLimit,
+  checkACompatible,
+  type OddBits,
+  toFrame,
+  windowOf,
+} from './rules'
+
+export interface ACompatibleOptions {
+  readonly code: DataCode
+  /** Which devices there are under which names, and how the PLC deviates. Default `iq-f`. */
+  readonly family?: ACompatibleFamilyId
+  /** PC number, default FFH: the connected station. */
+  readonly pc?: number
+  /** Monitoring timer in units of 250 ms, default 0 = wait for ever, which an FX5 CPU module demands. */
+  readonly timer?: number
+  /** ASCII code: digits of X and Y, a setting of the PLC's port. Without it X and Y are refused in ASCII code. */
+  readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
+  /** ASCII code: what stands for an odd number of bits. Default the family's; without one odd numbers are refused. */
+  readonly oddBits?: OddBits | undefined
+}
+
+type Bag = Readonly<Record<string, unknown>>
+
+/**
+ * The 1E frame with its command set. Devices are given by the PLC's own names: SM8000 goes out as M8000, LCN0 as CN200.
+ * @example aCompatibleProtocol({ code: 'binary' }).exchange(aCompatibleCommands.readWords, { head, points: 3 })
+ */
+export function aCompatibleProtocol(options: ACompatibleOptions): HeadProtocol<Head1e> {
+  const { code, pc = 0xff, timer = 0, asciiXy } = options
+  const family: ACompatibleFamily = aCompatibleFamilies[options.family ?? 'iq-f']
+  const oddBits = options.oddBits ?? family.oddBits
+  return new HeadProtocol<Head1e>({
+    framing: frame1e(code),
+    commands: aCompatibleCommands,
+    code,
+    form: code === 'ascii' && asciiXy === 'octal' ? FORM_XY_OCTAL : 0,
+    headOf: (command) => ({ command: command.code, pc, timer }),
+    codeOf: (head) => head.command,
+    prepare(command, message) {
+      if (code === 'ascii') checkAscii(command, message, asciiXy, oddBits)
+      return prepared(family, command.name as ACompatibleCommandName, message)
+    },
+    dummies: (command, request, side) =>
+      code === 'ascii' && oddBits === 'padded' && isOdd(command, request, side) ? 1 : 0,
+    refusal: (command, frame) => refusal(code, command, frame),
+  })
+}
+
+/** Whether an odd number of bits stands in the request, or in its answer. */
+function isOdd({ name }: NamedCommand, { points, values }: Bag, side?: 'request' | 'response'): boolean {
+  if (name === 'readBits' && side !== 'request') return typeof points === 'number' && points % 2 === 1
+  return name === 'writeBits' && side !== 'response' && (sizeOf(values) ?? 0) % 2 === 1
+}
+
+function checkAscii(command: NamedCommand, message: Bag, asciiXy: unknown, oddBits: unknown): void {
+  if (oddBits === undefined && isOdd(command, message)) {
+    throw new RequestError(
+      'BAD_OPTION',
+      `${command.title} of an odd number of points in ASCII code: whether a dummy character follows is not in the manual of this PLC. Ask for an even number of points, or set the option oddBits to exact or padded.`,
+      'oddBits',
+    )
+  }
+  const device = addressesOf(message).find(({ device: name }) => name === 'X' || name === 'Y')
+  if (asciiXy === undefined && device !== undefined) {
+    throw new RequestError(
+      'BAD_OPTION',
+      `${device.device} in ASCII code takes octal or hexadecimal digits, depending on the communication data code "ASCII (X,Y OCT)" or "ASCII (X,Y HEX)". Set the option asciiXy to octal or hexadecimal as in the PLC.`,
+      'asciiXy',
+    )
+  }
+}
+
+/** The message with the devices under their names in the frame. What is no message at all is left to the encoder. */
+function prepared(family: ACompatibleFamily, command: ACompatibleCommandName, message: Bag): Bag {
+  const { windows } = family
+  const moved = (address: DeviceAddress, points: number, path: string): DeviceAddress => {
+    checkPlain(address, path)
+    checkACompatible(windows, command, address, points, path)
+    const window = windowOf(windows, address)
+    return window === undefined ? address : toFrame(window, address)
+  }
+  if (isAddress(message.head)) {
+    const points = typeof message.points === 'number' ? message.points : sizeOf(message.values)
+    return { ...message, head: moved(message.head, points ?? 1, 'head') }
+  }
+  const list = command === 'writeRandomBits' ? 'bits' : command === 'writeRandomWords' ? 'words' : undefined
+  const elements = list === undefined ? undefined : message[list]
+  if (list === undefined || !Array.isArray(elements)) return message
+  const devices: unknown[] = elements
+  checkCount(command, list, devices)
+  return {
+    ...message,
+    [list]: devices.map((element, i) =>
+      isBag(element) && isAddress(element.device)
+        ? { ...element, device: moved(element.device, 1, `${list}.${i}.device`) }
+        : element,
+    ),
+  }
+}
+
+function checkPlain(address: DeviceAddress, path: string): void {
+  checkAddress(address)
+  const { extension, extensionIndex, index, indirect } = address
+  if (extension ?? extensionIndex ?? index ?? indirect) {
+    throw new RequestError('UNSUPPORTED', 'A 1E frame takes no J, U, index register or @: use a 3E or 4E frame.', path)
+  }
+}
+
+function checkCount(command: ACompatibleCommandName, list: string, devices: readonly unknown[]): void {
+  // Bit devices and word devices alike (FX5 communication manual 39.1).
+  const max = aCompatibleLimit(command, 'M') ?? 0
+  if (devices.length <= max) return
+  throw new RequestError('LIMIT_EXCEEDED', `${devices.length} devices in one request, at most ${max}. Split it.`, list)
+}
+
+/** The devices of a request. */
+export function addressesOf(message: Bag): readonly DeviceAddress[] {
+  const holders = [message.bits, message.words].flatMap((list): unknown[] => (Array.isArray(list) ? list : []))
+  const devices = holders.map((element) => (isBag(element) ? element.device : undefined))
+  return [message.head, ...devices].filter(isAddress)
+}
+
+function isBag(value: unknown): value is Bag {
+  return typeof value === 'object' && value !== null
+}
+
+function isAddress(value: unknown): value is DeviceAddress {
+  return isBag(value) && typeof value.device === 'string'
+}
+
+function sizeOf(value: unknown): number | undefined {
+  return Array.isArray(value) || (ArrayBuffer.isView(value) && 'length' in value) ? Number(value.length) : undefined
+}
+
+function refusal(code: DataCode, command: NamedCommand, frame: ResponseFrame<Head1e>): EndCodeError {
+  const abnormal = frame.body.length === 0 ? undefined : readerOf(code, frame.body).uint(1)
+  const text = explainEndCode(frame.endCode)
+  const reason = abnormal === undefined ? undefined : explainEndCode(abnormal)
+  const meaning = [text?.meaning, reason?.meaning].filter((part) => part !== undefined).join(' ')
+  const { remedy } = reason ?? text ?? {}
+  const what = `${command.title} was refused with end code ${hex(frame.endCode, 2)}H`
+  const why = abnormal === undefined ? '' : `, abnormal code ${hex(abnormal, 2)}H`
+  return new EndCodeError(
+    frame.endCode,
+    `${what}${why}: ${meaning === '' ? 'No text is known for this code.' : `${meaning} ${remedy ?? ''}`}`,
+    {
+      command: command.title,
+      ...(abnormal === undefined ? {} : { abnormalCode: abnormal }),
+      ...(meaning === '' ? {} : { meaning, remedy: remedy ?? '' }),
+    },
+  )
+}

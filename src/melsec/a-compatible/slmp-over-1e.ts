@@ -1,0 +1,268 @@
+/**
+ * Requests of the SLMP set in 1E frames, for a client: the ones that 1E can say, said in its way. What it cannot say is
+ * in the profile as lacking, so that the planner goes without it.
+ */
+import { decode, encode, readerOf, writerOf } from '../../codec/codec'
+import { RequestError } from '../../errors'
+import type { Exchange, Framing, HeadProtocol, NamedCommand } from '../../link/link'
+import type { Command, RequestOf, ResponseOf } from '../commands/command'
+import type { CommandName } from '../commands/commands'
+import { type DeviceAddress, deviceInfo } from '../device/device'
+import type { Head1e } from '../frame/frame-1e'
+import { ownStation, type Route } from '../frame/route'
+import type { Head3e } from '../frame/slmp-frame'
+import { isOver1e, over1e, profileOver1e } from '../profiles/over-1e'
+import { lackOf, type Profile } from '../profiles/profile'
+import type { ClientProtocol, ExchangeOptions } from '../protocol'
+import { aCompatibleCommands } from './commands'
+import { type ACompatibleOptions, aCompatibleProtocol } from './protocol'
+import {
+  type ACompatibleFamily,
+  type ACompatibleFamilyId,
+  type ACompatibleWindow,
+  aCompatibleFamilies,
+  windowOf,
+} from './rules'
+
+type Bag = Readonly<Record<string, unknown>>
+
+const NO_NAME = ''
+const NAME_LENGTH = 16
+
+/** A request of 1E and what of its answer is wanted. */
+interface Said {
+  readonly command: NamedCommand
+  readonly message: Bag
+  readonly answer: (message: Bag) => Bag
+}
+
+const asItIs = (message: Bag): Bag => message
+const nothing = (): Bag => ({})
+
+export interface SlmpOver1eOptions extends Pick<ACompatibleOptions, 'code' | 'asciiXy' | 'timer'> {
+  readonly profile: Profile
+  /** 1E reaches the connected station only; another one is refused. */
+  readonly route: Route
+}
+
+/** @throws RequestError BAD_OPTION when the PLC does not take 1E, or not for this route. */
+export function protocolOver1e(options: SlmpOver1eOptions): ClientProtocol<Head3e> {
+  return new SlmpOver1e(options)
+}
+
+function familyOf({ cpu, title }: Profile): ACompatibleFamilyId {
+  if (isFamily(cpu)) return cpu
+  throw new RequestError('BAD_OPTION', `${title} has no 1E frame here: use 3E.`, 'frame')
+}
+
+function isFamily(id: string): id is ACompatibleFamilyId {
+  return Object.hasOwn(aCompatibleFamilies, id)
+}
+
+function refuseOtherStations(route: Route): void {
+  for (const name of ['network', 'station', 'moduleIo', 'multidrop'] as const) {
+    if (route[name] === ownStation[name]) continue
+    throw new RequestError(
+      'BAD_OPTION',
+      `A 1E frame reaches the connected station only: leave out route.${name}.`,
+      'route',
+    )
+  }
+}
+
+class SlmpOver1e implements ClientProtocol<Head3e> {
+  readonly framing: Framing<Head3e>
+  readonly profile: Profile
+  readonly code: ACompatibleOptions['code']
+  readonly #protocol: HeadProtocol<Head1e>
+  readonly #family: ACompatibleFamily
+
+  constructor({ profile, route, ...options }: SlmpOver1eOptions) {
+    refuseOtherStations(route)
+    const family = familyOf(profile)
+    this.#family = aCompatibleFamilies[family]
+    this.#protocol = aCompatibleProtocol({ ...options, family })
+    this.framing = framingOf(this.#protocol.framing)
+    this.profile = profileOver1e(profile, this.#family.windows)
+    this.code = options.code
+  }
+
+  /** @throws RequestError when 1E cannot say it. */
+  exchange<C extends Command>(
+    command: C,
+    message: RequestOf<C>,
+    options: ExchangeOptions = {},
+  ): Exchange<Head3e, ResponseOf<C>> {
+    const given: Bag = message
+    this.#check(command, options)
+    const said = this.#said(command.name, given)
+    const asked = this.#protocol.exchange(said.command, said.message)
+    return {
+      title: asked.title,
+      effect: command.effect,
+      message: given,
+      head: outer(asked.head),
+      body: asked.body,
+      answered: asked.answered,
+      responseLength: (head, soFar) => asked.responseLength(inner(head), soFar),
+      decode: (frame) => answered(command, given, said.answer(asked.decode({ ...frame, head: inner(frame.head) }))),
+    }
+  }
+
+  #check(command: Command, options: ExchangeOptions): void {
+    const lack = lackOf(this.profile, command.name as CommandName)
+    if (lack !== undefined) {
+      throw new RequestError(
+        'UNSUPPORTED',
+        `${this.profile.title} does not have ${command.title}: ${lack.reason} ${lack.instead}`,
+        command.name,
+      )
+    }
+    if (options.form !== undefined) {
+      throw new RequestError('UNSUPPORTED', 'A 1E frame has no forms of the device specification.', 'form')
+    }
+  }
+
+  #said(name: string, message: Bag): Said {
+    if (!isOver1e(name)) throw new RequestError('UNSUPPORTED', `A 1E frame has no command ${name}.`, name)
+    const command: NamedCommand = aCompatibleCommands[over1e[name]]
+    switch (name) {
+      case 'readBits':
+        return this.#evenBits(command, message)
+      case 'writeBits':
+        return this.#writtenBits(command, message)
+      case 'writeRandomWords':
+        return { command, message: { words: wordsOf(message) }, answer: nothing }
+      case 'remoteRun':
+        return { command, message: runOf(message), answer: nothing }
+      case 'remoteStop':
+        return { command, message: {}, answer: nothing }
+      case 'readTypeName':
+        return { command, message: {}, answer: ({ typeCode }) => typeName(typeCode) }
+      case 'selfTest':
+      case 'readWords':
+      case 'writeWords':
+      case 'writeRandomBits':
+        return { command, message, answer: asItIs }
+      default:
+        return name satisfies never
+    }
+  }
+
+  /** Whether a dummy follows an odd number of bits in ASCII code is not known: none is asked for then. */
+  #avoidsOdd(count: number): boolean {
+    return this.code === 'ascii' && this.#family.oddBits === undefined && count % 2 === 1
+  }
+
+  #evenBits(command: NamedCommand, message: Bag): Said {
+    const { head, points } = message
+    const window = isAddress(head) ? windowOf(this.#family.windows, head) : undefined
+    if (typeof points !== 'number' || !this.#avoidsOdd(points) || window === undefined || !isAddress(head)) {
+      return { command, message, answer: asItIs }
+    }
+    const isLast = head.number + points >= endOf(window)
+    const from = isLast ? { ...head, number: head.number - 1 } : head
+    const skip = isLast ? 1 : 0
+    return {
+      command,
+      message: { ...message, head: from, points: points + 1 },
+      answer: ({ values }) => ({ values: Array.isArray(values) ? values.slice(skip, skip + points) : values }),
+    }
+  }
+
+  /** One by one instead, which needs no dummy and writes the same. */
+  #writtenBits(command: NamedCommand, message: Bag): Said {
+    const { head, values } = message
+    if (!isAddress(head) || !Array.isArray(values) || !this.#avoidsOdd(values.length)) {
+      return { command, message, answer: nothing }
+    }
+    const bits = Array.from(values, (value: unknown, i) => ({ device: { ...head, number: head.number + i }, value }))
+    return { command: aCompatibleCommands.writeRandomBits, message: { bits }, answer: nothing }
+  }
+}
+
+function endOf({ number, points }: ACompatibleWindow): number {
+  return number + points
+}
+
+/** The answer as the command of the SLMP set declares it. */
+function answered<C extends Command>(command: C, request: Bag, answer: Bag): ResponseOf<C> {
+  const context = { shape: command.request, message: request }
+  const writer = writerOf('binary')
+  encode(command.response, answer, writer, context)
+  return decode<C['response']>(command.response, readerOf('binary', writer.take()), context)
+}
+
+/** 1E tells no name. The code fits none of the SLMP set, so that nobody takes it for one of its models. */
+function typeName(typeCode: unknown): Bag {
+  return { model: NO_NAME.padEnd(NAME_LENGTH), modelCode: typeCode }
+}
+
+function runOf({ mode, clearMode = 0 }: Bag): Bag {
+  if (mode !== 1) {
+    throw new RequestError('UNSUPPORTED', 'A 1E frame cannot force RUN: leave force out, or use a 3E frame.', 'mode')
+  }
+  if (clearMode !== 0) {
+    throw new RequestError('UNSUPPORTED', 'RUN by a 1E frame clears no devices: leave clear at keep.', 'clearMode')
+  }
+  return {}
+}
+
+/** Double words as two words each: one request is carried out in one step all the same. */
+function wordsOf({ words, doubleWords }: Bag): readonly Bag[] {
+  const single = Array.isArray(words) ? (words as readonly Bag[]) : []
+  const pairs = Array.isArray(doubleWords) ? (doubleWords as readonly Bag[]) : []
+  return [...single, ...pairs.flatMap(halves)]
+}
+
+function halves({ device, value }: Bag): Bag[] {
+  if (!isAddress(device) || typeof value !== 'number') return [{ device, value }]
+  const next = deviceInfo(device.device).unit === 'bit' ? 16 : 1
+  return [
+    { device, value: value & 0xffff },
+    { device: { ...device, number: device.number + next }, value: value >>> 16 },
+  ]
+}
+
+function isAddress(value: unknown): value is DeviceAddress {
+  return typeof value === 'object' && value !== null && 'device' in value
+}
+
+/** Head of a client of the SLMP set, with what 1E needs beside it. */
+interface OuterHead extends Head3e {
+  readonly command: number
+  readonly pc: number
+}
+
+function outer({ command, pc, timer }: Head1e): OuterHead {
+  return { route: ownStation, timer, command, pc }
+}
+
+function inner(head: Head3e): Head1e {
+  if (!('command' in head && 'pc' in head)) throw new TypeError('this is no head of a 1E frame')
+  const { command, pc, timer } = head
+  if (typeof command !== 'number' || typeof pc !== 'number') throw new TypeError('this is no head of a 1E frame')
+  return { command, pc, timer }
+}
+
+function framingOf({ name, correlation, request, response, mismatch }: Framing<Head1e>): Framing<Head3e> {
+  return {
+    name,
+    correlation,
+    request: {
+      write: (head, serial, body) => request.write(inner(head), serial, body),
+      scan(bytes, bodyLength) {
+        const scanned = request.scan(bytes, (head, soFar) => bodyLength(outer(head), soFar))
+        return scanned && { ...scanned, frame: { ...scanned.frame, head: outer(scanned.frame.head) } }
+      },
+    },
+    response: {
+      write: (head, serial, endCode, body) => response.write(inner(head), serial, endCode, body),
+      scan(bytes, bodyLength) {
+        const scanned = response.scan(bytes, (head, soFar) => bodyLength(outer(head), soFar))
+        return scanned && { ...scanned, frame: { ...scanned.frame, head: outer(scanned.frame.head) } }
+      },
+    },
+    mismatch: (asked, got) => mismatch(inner(asked), inner(got)),
+  }
+}

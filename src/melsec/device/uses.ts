@@ -1,0 +1,75 @@
+// Where the device addresses of a command stand in its message: found once per command from its declaration.
+import { isArrayLike, type Shape } from '../../codec/codec'
+import type { Command } from '../commands/command'
+import type { DeviceUse } from './access'
+import { deviceAddress } from './codec'
+import type { DeviceAddress } from './device'
+
+/** One address of a message and how the command is about to use it. */
+export interface FoundDevice {
+  /** e.g. `words.3.device` */
+  readonly path: string
+  readonly address: DeviceAddress
+  readonly use: DeviceUse
+}
+
+type Bag = Readonly<Record<string, unknown>>
+
+interface Places {
+  /** Name of the address field of the message itself. */
+  readonly own: string | undefined
+  readonly lists: readonly { readonly list: string; readonly field: string }[]
+}
+
+const known = new WeakMap<Shape, Places>()
+
+function placesOf(shape: Shape): Places {
+  const found = known.get(shape)
+  if (found !== undefined) return found
+  const lists: { list: string; field: string }[] = []
+  for (const [list, field] of Object.entries(shape)) {
+    const address = field.kind === 'list' ? addressField(field.item) : undefined
+    if (address !== undefined) lists.push({ list, field: address })
+  }
+  const places = { own: addressField(shape), lists }
+  known.set(shape, places)
+  return places
+}
+
+function addressField(shape: Shape): string | undefined {
+  return Object.entries(shape).find(([, field]) => field.kind === 'value' && field.codec === deviceAddress)?.[0]
+}
+
+/** Every device address of a message that is about to be encoded. Fields of a wrong type are left to the encoder. */
+export function devicesOf(command: Command, message: Bag): readonly FoundDevice[] {
+  // Plain JavaScript callers pass anything; the encoder says what is wrong with it.
+  if (!isBag(message)) return []
+  const { own, lists } = placesOf(command.request)
+  const found: FoundDevice[] = []
+  if (own !== undefined && isBag(message[own])) found.push(foundIn(command, message, own, undefined, own))
+  for (const { list, field } of lists) {
+    const elements = message[list]
+    if (!Array.isArray(elements)) continue
+    elements.forEach((element, i) => {
+      if (isBag(element) && isBag(element[field]))
+        found.push(foundIn(command, element, field, list, `${list}.${i}.${field}`))
+    })
+  }
+  return found
+}
+
+function foundIn(command: Command, holder: Bag, field: string, list: string | undefined, path: string): FoundDevice {
+  const { points, values } = holder
+  const count = typeof points === 'number' ? points : isArrayLike(values) ? values.length : undefined
+  const use = {
+    command: command.name,
+    ...(list === undefined ? {} : { list }),
+    ...(count === undefined ? {} : { points: count }),
+  }
+  // The names come from the declarations, which device-access knows: commands with an address and their lists.
+  return { path, address: holder[field] as DeviceAddress, use: use as DeviceUse }
+}
+
+function isBag(value: unknown): value is Bag {
+  return typeof value === 'object' && value !== null
+}

@@ -1,0 +1,345 @@
+// What a family of PLCs is like, as data: numbering, frames, forms, limits, what it lacks and how it refuses.
+
+import type { DataCode } from '../../codec/codec'
+import { RequestError } from '../../errors'
+import type { CommandName } from '../commands/commands'
+import type { AddressOptions } from '../device/address'
+import type { DeviceName, ExtensionKind } from '../device/device'
+import type { DeviceForm } from '../device/device-form'
+import type { Notation } from '../device/json'
+import type { LimitRule, LimitUnit } from '../device/limit-rule'
+import type { FrameName } from '../frame/frames'
+
+/** Every profile's id, in the order people look for them. */
+export const profileIds = [
+  'iq-r',
+  'iq-f',
+  'fx5-enet',
+  'q',
+  'q-built-in',
+  'q-e71',
+  'l',
+  'fx3',
+  'remote-head',
+  'nz2gf-etb',
+  'generic',
+] as const
+
+export type ProfileId = (typeof profileIds)[number]
+export type { FrameName } from '../frame/frames'
+export type TransportName = 'tcp' | 'udp'
+
+/** A command this family does not have, or not on each of its ports. */
+export interface Lack {
+  readonly command: CommandName
+  /** End code the PLC answers to it. */
+  readonly endCode: number
+  readonly reason: string
+  /** What to do instead. */
+  readonly instead: string
+  readonly source: string
+}
+
+/** Devices that some commands do not take on this family, beside the restrictions of the SLMP manual. */
+export interface DeviceExclusion {
+  readonly commands: readonly CommandName[]
+  readonly devices: readonly DeviceName[]
+  readonly endCode: number
+  readonly reason: string
+  readonly instead: string
+  readonly source: string
+}
+
+/** End codes of refusals that are about no limit. */
+export interface Refusals {
+  /** Device number outside the range. */
+  readonly deviceNumber: number
+  /** Device name this CPU does not have. */
+  readonly deviceName: number
+  /** The same in an extension specification (subcommands 008x). */
+  readonly extendedDeviceName: number
+  /** Bit units on a word device. */
+  readonly bitUnitsOfWordDevice: number
+  /** The module or network behind an extension is not there, or cannot be reached. */
+  readonly extension: number
+  /** Unknown command or subcommand. */
+  readonly command: number
+  /** Execute Monitor without Entry Monitor Device. */
+  readonly monitorNotRegistered: number
+  /** Request data longer or shorter than the request says. */
+  readonly length: number
+  /** Remote control refused: wrong CPU state for it (latch clear or reset while not in STOP). */
+  readonly notInStop: number
+  /** Remote control refused: another device stopped or paused the CPU, or reset is not permitted by parameter. */
+  readonly remote: number
+  readonly source: string
+}
+
+export interface InFlight {
+  /** Requests in flight on one TCP connection. */
+  readonly tcp: number
+  /** Messages the receive buffer holds: over UDP with serial numbers 1 + (udpBuffer / connections in use), rounded down. */
+  readonly udpBuffer: number
+  /** The same figure of each port this profile stands for; `udpBuffer` is the lowest. Empty where there is no pipelining. */
+  readonly ports: readonly { readonly port: string; readonly buffer: number }[]
+  readonly source: string
+}
+
+/** Where requests can go from the port. */
+export interface Reach {
+  /** `connected`: the connected station only; `networks`: other stations too, where the port is in a network with them. */
+  readonly stations: 'connected' | 'networks'
+  /** Module I/O numbers that mean the CPU of the connected station. */
+  readonly ownModuleIo: readonly number[]
+  /** Module I/O numbers of CPUs that are not the control CPU: they register no monitor (appendix 3). */
+  readonly nonControlCpus: readonly number[]
+  /** The port takes no other module I/O number. */
+  readonly ownModuleIoOnly: boolean
+  readonly source: string
+}
+
+/** Connections a port has at the same time. */
+export interface Connections {
+  readonly most: number
+  readonly source: string
+}
+
+/** Last index register of each kind that can modify an address. */
+export interface LastIndex {
+  readonly Z: number
+  readonly LZ: number
+  readonly source: string
+}
+
+/** Where the CPU tells whether it runs: b0 to b3 of a register, 0 RUN, 2 STOP, 3 PAUSE. */
+export interface StatusRegister {
+  readonly device: 'SD'
+  readonly number: number
+  readonly source: string
+}
+
+export interface MonitoringTimer {
+  /** In ms, a multiple of 250. 0 is "wait for ever" on the PLC's side. */
+  readonly default: number
+  /** The PLC takes nothing but 0. */
+  readonly zeroOnly: boolean
+  /** Recommended for the own station, in ms. */
+  readonly recommended?: { readonly from: number; readonly to: number }
+  readonly source: string
+}
+
+export interface RemoteFacts {
+  /** Clear modes Remote RUN takes. */
+  readonly clearModes: readonly (0 | 1 | 2)[]
+  /** Conditions of a remote reset, for people. */
+  readonly reset: string
+  /** Absent: it is not known where, or the frame does not reach it; remote control cannot be verified then. */
+  readonly status?: StatusRegister
+  readonly source: string
+}
+
+export interface DeviceRanges {
+  /** Points per device; the numbers go from 0 to points - 1. A device that is not here is not checked. */
+  readonly points: Readonly<Partial<Record<DeviceName, number>>>
+  readonly source: string
+}
+
+/** A memory with files. */
+export interface Drive {
+  readonly number: number
+  /** The manual's name. */
+  readonly title: string
+  /** It stands for another drive. */
+  readonly same?: number
+}
+
+/** End codes of file commands. */
+export interface FileRefusals {
+  readonly drive: number
+  readonly notFound: number
+  readonly directory: number
+  readonly name: number
+  readonly exists: number
+  readonly space: number
+  readonly password: number
+  readonly readOnly: number
+  /** Locked by Open File. */
+  readonly locked: number
+  /** A kind of file that users cannot handle so. */
+  readonly kind: number
+  /** Beyond the end of the file. */
+  readonly range: number
+  readonly writeProtected: number
+  /** No file is open under this file pointer number. */
+  readonly pointer: number
+  /** Not as things are: too many files open, or open for reading only. */
+  readonly now: number
+  readonly running: number
+  /** The memory itself fails. */
+  readonly failed: number
+  readonly source: string
+}
+
+/** Files and how they are asked for. Without subcommands and drives on a family that has no file commands. */
+export interface FileFacts {
+  /** Subcommands of the file commands, the usual one first: 0000, 0004, or 0040 with long names and directories. */
+  readonly subcommands: readonly number[]
+  readonly drives: readonly Drive[]
+  /** Module I/O numbers that file commands may name; none: whatever the others may. */
+  readonly moduleIo: readonly number[]
+  /** Further ones, of which the manual says both: the PLC decides. */
+  readonly doubtfulModuleIo: readonly number[]
+  /** Parameter files, and programs that run, are changed in STOP only. */
+  readonly stopToChange: boolean
+  readonly refusals: FileRefusals
+  readonly source: string
+}
+
+export interface Subcommand {
+  readonly value: number
+  readonly source: string
+}
+
+/** Everything the rest of the package knows about a family of PLCs. Plain data. */
+export interface Profile {
+  readonly id: ProfileId
+  readonly title: string
+  /** CPUs and modules it stands for. */
+  readonly series: string
+  /** Profile of the same CPUs when nothing is known about the port: what a model code suggests. */
+  readonly cpu: ProfileId
+  /** How X and Y are numbered in the engineering tool: `X17` is octal on iQ-F, hexadecimal elsewhere. */
+  readonly xyRadix: 8 | 16
+  /** How W is numbered: hexadecimal on every PLC; SLMP inverters are said to number it in decimal. */
+  readonly wRadix: 10 | 16
+  /** Digits of X and Y in ASCII code: as the port is set ("ASCII (X,Y OCT)", "(X,Y HEX)"), or always hexadecimal. */
+  readonly asciiXy: 'setting' | 'hexadecimal'
+  readonly frames: readonly FrameName[]
+  /** Default frame. */
+  readonly frame: FrameName
+  readonly codes: readonly DataCode[]
+  /** Default data code. */
+  readonly code: DataCode
+  readonly transports: readonly TransportName[]
+  readonly forms: readonly DeviceForm[]
+  /** Default form; a device without a short code takes the first form of `forms` that has it. */
+  readonly form: 'short' | 'long'
+  /** Devices with a one-byte code on this family only. */
+  readonly shortDevices: readonly DeviceName[]
+  /** Extensions of an address this family takes: `J1\\W10`, `U3\\G100`, `U3E0\\HG0`. */
+  readonly extensions: readonly ExtensionKind[]
+  /** Device names this family does not have. */
+  readonly absentDevices: readonly DeviceName[]
+  readonly lacks: readonly Lack[]
+  /** Not on every CPU or module of the family: sent when asked for, never chosen by the planner. */
+  readonly doubtful: readonly Lack[]
+  readonly exclusions: readonly DeviceExclusion[]
+  /** What the port of this family does not take in 1E frames, beside what no 1E frame says. */
+  readonly exclusions1e?: readonly DeviceExclusion[]
+  readonly limits: readonly LimitRule[]
+  readonly ranges: DeviceRanges
+  readonly refusals: Refusals
+  readonly inFlight: InFlight
+  readonly connections: Connections
+  readonly reach: Reach
+  readonly lastIndex: LastIndex
+  readonly monitoringTimer: MonitoringTimer
+  /** Subcommands other than the computed ones. */
+  readonly subcommands: Readonly<Partial<Record<CommandName, Subcommand>>>
+  readonly remote: RemoteFacts
+  readonly files: FileFacts
+  /** What people should know about ports, settings and oddities. */
+  readonly notes: readonly string[]
+  /** Where the single figures above come from. */
+  readonly sources: Readonly<
+    Record<'xyRadix' | 'wRadix' | 'asciiXy' | 'frames' | 'forms' | 'extensions' | 'absentDevices', string>
+  >
+}
+
+/**
+ * Own maxima. A number is for a command with a single limit; block commands and Write Random (word units) name the unit.
+ * It holds in every form and code.
+ */
+export type LimitOverrides = Readonly<
+  Partial<Record<CommandName, number | Readonly<Partial<Record<LimitUnit, number>>>>>
+>
+
+/** What a user may set differently. Each field is merged into the profile's, entry by entry. */
+export interface ProfileOverrides {
+  readonly xyRadix?: 8 | 16
+  readonly wRadix?: 10 | 16
+  readonly frame?: FrameName
+  readonly limits?: LimitOverrides
+  /** `true` or a reason: the PLC lacks the command; `false`: it has it (also takes it off the doubtful ones). */
+  readonly lacks?: Readonly<Partial<Record<CommandName, boolean | string>>>
+  readonly ranges?: Readonly<Partial<Record<DeviceName, number>>>
+  readonly subcommands?: Readonly<Partial<Record<CommandName, number>>>
+  readonly inFlight?: { readonly tcp?: number; readonly udpBuffer?: number }
+  /** ZR counts twice in Read Random and Entry Monitor Device: the High Performance model QCPU does so. */
+  readonly zrCountsDouble?: boolean
+}
+
+/**
+ * Digits of X and Y in ASCII code: what is given, where the port has the setting; else always hexadecimal. A setting that
+ * the PLC does not have would address other inputs and outputs without any error.
+ *
+ * @throws RequestError BAD_OPTION when the family has no such setting.
+ */
+export function asciiXyOf<T extends 'octal' | 'hexadecimal' | undefined>(
+  { title, asciiXy }: Profile,
+  given: T,
+): T | 'hexadecimal' {
+  if (asciiXy === 'setting') return given
+  if (given === undefined) return 'hexadecimal'
+  throw new RequestError(
+    'BAD_OPTION',
+    `${title} has no setting for the digits of X and Y in ASCII code: they are always hexadecimal. Leave asciiXy out.`,
+    'asciiXy',
+  )
+}
+
+/** How addresses are written: as given, else as the profile has it. */
+export function addressOptionsOf(
+  profile: Profile,
+  { xyRadix = profile.xyRadix, wRadix = profile.wRadix }: Notation = {},
+): AddressOptions {
+  return { xyRadix, wRadix }
+}
+
+/** Why this family has not got the command, and what to do instead; undefined when it has it. */
+export function lackOf(profile: Profile, command: CommandName): Lack | undefined {
+  return profile.lacks.find((lack) => lack.command === command)
+}
+
+/** Why the planner should not choose the command by itself; undefined when it may. */
+export function doubtOf(profile: Profile, command: CommandName): Lack | undefined {
+  return profile.doubtful.find((lack) => lack.command === command)
+}
+
+/** Why the command does not take the device on this family; undefined when nothing is known against it. */
+export function exclusionOf(profile: Profile, command: CommandName, device: DeviceName): DeviceExclusion | undefined {
+  return profile.exclusions.find(
+    (exclusion) => exclusion.commands.includes(command) && exclusion.devices.includes(device),
+  )
+}
+
+/**
+ * How many requests may be in flight (SLMP reference manual 3.3). Pipelining needs the serial number of the 4E frame and
+ * datagrams: over TCP an FX5U answers only the last of two requests that arrive together. Of the RJ71GN11-T2, which alone
+ * takes the station extension frame, the manual does not say what it can hold: one.
+ *
+ * @throws RequestError BAD_OPTION when `connections` is not a whole number of at least 1.
+ * @example inFlightBound(resolveProfile('iq-r'), 'udp', '4E') // 33
+ */
+export function inFlightBound(profile: Profile, transport: TransportName, frame: FrameName, connections = 1): number {
+  if (!Number.isInteger(connections) || connections < 1) {
+    throw new RequestError(
+      'BAD_OPTION',
+      `connections must be a whole number of at least 1, not ${connections}.`,
+      'connections',
+    )
+  }
+  if (frame !== '4E') return 1
+  if (transport === 'tcp') return profile.inFlight.tcp
+  return 1 + Math.floor(profile.inFlight.udpBuffer / connections)
+}

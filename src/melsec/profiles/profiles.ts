@@ -1,0 +1,53 @@
+// Every profile, and the one a user means.
+import { RequestError } from '../../errors'
+import { fx3 } from './fx3'
+import { fx5Enet } from './fx5-enet'
+import { generic } from './generic'
+import { iqF } from './iq-f'
+import { iqR } from './iq-r'
+import { l } from './l'
+import { nz2gfEtb } from './nz2gf-etb'
+import { withOverrides } from './override'
+import { type Profile, type ProfileId, type ProfileOverrides, profileIds } from './profile'
+import { q } from './q'
+import { qBuiltIn, qE71 } from './q-ports'
+import { remoteHead } from './remote-head'
+
+/** Every profile by its id. */
+export const profiles: Readonly<Record<ProfileId, Profile>> = {
+  'iq-r': iqR,
+  'iq-f': iqF,
+  'fx5-enet': fx5Enet,
+  q,
+  'q-built-in': qBuiltIn,
+  'q-e71': qE71,
+  l,
+  fx3,
+  'remote-head': remoteHead,
+  'nz2gf-etb': nz2gfEtb,
+  generic,
+}
+
+function isProfileId(id: string): id is ProfileId {
+  return Object.hasOwn(profiles, id)
+}
+
+function profileOf(id: string): Profile {
+  if (isProfileId(id)) return profiles[id]
+  throw new RequestError(
+    'BAD_OPTION',
+    `There is no profile "${id}". Choose one of: ${profileIds.join(', ')}.`,
+    'profile',
+  )
+}
+
+/**
+ * The profile with an id, or the one given, with the user's own values merged in field by field.
+ *
+ * @throws RequestError BAD_OPTION: unknown id, or an override that cannot be.
+ * @example resolveProfile('q', { lacks: { readBlock: true, writeBlock: true }, limits: { readWords: 480 } })
+ */
+export function resolveProfile(idOrProfile: ProfileId | Profile, overrides?: ProfileOverrides): Profile {
+  const profile = typeof idOrProfile === 'string' ? profileOf(idOrProfile) : idOrProfile
+  return overrides === undefined ? profile : withOverrides(profile, overrides)
+}
