@@ -128,7 +128,7 @@ describe('simulate', () => {
     [['--fault', 'delay:hours=3'], /has no hours/],
     [['--fault', 'endCode:endCode=zz'], /no end code/],
     [['--fault', 'silence:commands=fly'], /there is no command "fly"/],
-    [['--profile', 'iq-f', '--frame', '4E'], /frames is .* here, not 4E/],
+    [['--profile', 'iq-f', '--frame', '4E'], /frames is 4E; it must be 3E or 1E/],
     [['--port', '70000'], /0 to 65535/],
   ])('%j is wrong use', async (args, message) => {
     const { code, out, err } = await runHere(['simulate', ...args])

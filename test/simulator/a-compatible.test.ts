@@ -176,7 +176,7 @@ describe('the port', () => {
   test('set to 3E only, or of another family, it does not answer 1E', () => {
     expect(exchangeBytes(plcOf({ frames: ['3E'] }), request)).toHaveLength(0)
     expect(exchangeBytes(createPlcSimulator({ profile: 'iq-r', clock: manualClock() }), request)).toHaveLength(0)
-    expect(() => createPlcSimulator({ profile: 'q', frames: ['1E'] })).toThrow('frames is 3E or 4E here')
+    expect(() => createPlcSimulator({ profile: 'q', frames: ['1E'] })).toThrow('frames is 1E; it must be 3E or 4E')
   })
 
   test('in the other data code it is silent', () => {
