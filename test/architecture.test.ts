@@ -5,8 +5,19 @@
 import { existsSync } from 'node:fs'
 import { join, posix } from 'node:path'
 import { describe, expect, test } from '@jest/globals'
+import { profileIds } from '../src/melsec/profiles/profile'
 import { root } from './support/root'
-import { filesBelow, type Import, importsOf, nodesOf, parseTypeScript, readText, textOf } from './support/syntax'
+import {
+  filesBelow,
+  type Import,
+  importsOf,
+  isNode,
+  nodesOf,
+  parseTypeScript,
+  readText,
+  type SyntaxNode,
+  textOf,
+} from './support/syntax'
 
 /** Each room and the rooms it may import, besides itself. */
 const ROOMS: Readonly<Record<string, readonly string[]>> = {
@@ -157,6 +168,28 @@ function circles(loads: ReadonlyMap<string, readonly string[]>): string[] {
   return found
 }
 
+/** What a profile's id stands for is a fact, and facts of a family stand in its profile: nobody else asks who it is. */
+const ids: ReadonlySet<string> = new Set(profileIds)
+const COMPARED = new RegExp(`[=!]==?\\s*['"\`](${profileIds.join('|')})['"\`]|case ['"](${profileIds.join('|')})['"]`)
+
+/** Where a family is told by its id instead of by its profile: comparisons, and tables with a row for each. */
+function familiesById(path: string, tree: SyntaxNode): string[] {
+  if (path.startsWith('src/melsec/profiles/')) return []
+  return [...nodesOf(tree)].flatMap((node) => {
+    const compared = node.type === 'BinaryExpression' && /^[=!]==?$/.test(String(node.operator))
+    const literals = compared ? [node.left, node.right] : node.type === 'SwitchCase' ? [node.test] : []
+    const id = literals.map(textOf).find((text) => text !== undefined && ids.has(text))
+    if (id !== undefined) return [`${path} asks whether it is ${id}`]
+    const key = node.type === 'TsTypeReference' && textOf(node.typeName) === 'Record' ? firstParameter(node) : undefined
+    return key === 'ProfileId' ? [`${path} has a row for each profile`] : []
+  })
+}
+
+function firstParameter({ typeParams }: SyntaxNode): string | undefined {
+  const [first] = isNode(typeParams) && Array.isArray(typeParams.params) ? typeParams.params : []
+  return isNode(first) ? textOf(first.typeName) : undefined
+}
+
 const sources = [...filesBelow('src', '.ts'), ...filesBelow('nodes', '.ts')].map((path) => readSource(path))
 
 describe('the sources', () => {
@@ -175,6 +208,12 @@ describe('the sources', () => {
 
   test('do not import each other in circles', () => {
     expect(circles(needsOf(sources))).toEqual([])
+  })
+
+  test('tell families of PLCs by the fields of their profiles, not by their ids', () => {
+    const found = sources.flatMap(({ path }) => familiesById(path, parseTypeScript(readText(path))))
+    const dialogs = [...filesBelow('nodes', '.html'), ...filesBelow('resources', '.js')]
+    expect([...found, ...dialogs.filter((path) => COMPARED.test(readText(path)))]).toEqual([])
   })
 
   test('are short enough to be of one subject', () => {
@@ -230,6 +269,18 @@ describe('the rules themselves catch', () => {
     expect(brokenNames(readSource('src/client/plan/made-up.ts', '/* setTimeout */ const text = "Date.now"'))).toEqual(
       [],
     )
+  })
+
+  test('a family told by its id', () => {
+    const found = (text: string, path = 'src/client/melsec/made-up.ts') => familiesById(path, parseTypeScript(text))
+    expect(found(`export const isOld = (profile: Profile) => profile.id === 'fx3'`)).toHaveLength(1)
+    expect(found(`export const isNew = ({ cpu }: Profile) => 'iq-f' !== cpu`)).toHaveLength(1)
+    expect(found(`export function f(id: string) { switch (id) { case 'generic': return 1 } }`)).toHaveLength(1)
+    expect(found(`const codes: Readonly<Record<ProfileId, number>> = { q: 1 }`)).toHaveLength(1)
+    expect(found(`const profiles: Record<ProfileId, Profile> = {}`, 'src/melsec/profiles/made-up.ts')).toEqual([])
+    expect(found(`export const isUnknown = (profile?: Profile) => profile === undefined`)).toEqual([])
+    expect(COMPARED.test(`connection.profile === 'fx3'`)).toBe(true)
+    expect(COMPARED.test(`connection.frame === '1E'`)).toBe(false)
   })
 
   test('a circle, also one of types only', () => {

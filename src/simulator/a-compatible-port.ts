@@ -9,13 +9,11 @@ import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-co
 import { aCompatibleProtocol } from '../melsec/a-compatible/protocol'
 import {
   type ACompatibleFamily,
-  type ACompatibleFamilyId,
   type ACompatibleProblem,
-  aCompatibleFamilies,
   aCompatibleLimit,
   aCompatibleProblem,
   fromFrame,
-  fx5Windows,
+  fx5Over1e,
   type OddBits,
 } from '../melsec/a-compatible/rules'
 import type { CommandName } from '../melsec/commands/commands'
@@ -52,8 +50,6 @@ const HANDLED = {
   loopback: 'selfTest',
 } as const satisfies Readonly<Record<ACompatibleCommandName, CommandName>>
 
-/** F3H: FX5 and FX3U alike (FX5 communication manual 39.4). */
-const TYPE_CODE = 0xf3
 const CONNECTED_STATION = 0xff
 
 /** A 1E request as the handlers take it. */
@@ -78,11 +74,10 @@ export class ACompatiblePort {
   readonly #protocol: HeadProtocol<Head1e>
 
   constructor({ profile, code, asciiXy, oddBits }: ACompatiblePortOptions) {
-    const family: ACompatibleFamilyId = profile.id === 'fx3' ? 'fx3' : 'iq-f'
     this.#code = code
     this.#profile = profile
-    this.#family = aCompatibleFamilies[family]
-    this.#protocol = aCompatibleProtocol({ code, asciiXy, oddBits, family })
+    this.#family = profile.aCompatible ?? fx5Over1e
+    this.#protocol = aCompatibleProtocol({ code, asciiXy, oddBits, family: this.#family })
   }
 
   /** Where a request ends. One that cannot be read ends with what has arrived: nothing else tells its end. */
@@ -106,7 +101,7 @@ export class ACompatiblePort {
       name: HANDLED[name],
       message: this.#translated(name, message),
       respond: (response) => {
-        const asked = name === 'readPcType' ? { typeCode: TYPE_CODE } : response
+        const asked = name === 'readPcType' ? { typeCode: this.#family.typeCode } : response
         return this.#complete(command.code, 0, this.#protocol.writeResponse(command, message, asked))
       },
     }
@@ -172,7 +167,7 @@ export class ACompatiblePort {
 
   #device(name: ACompatibleCommandName, address: DeviceAddress, points: number): DeviceAddress {
     // The memory has special relays and registers under their iQ-F names, whatever the family calls them.
-    const windows = fx5Windows
+    const { windows } = fx5Over1e
     const device = fromFrame(windows, address)
     if (device === undefined) {
       throw new Refusal(END.device, `1E does not reach ${address.device}${address.number}`)

@@ -3,7 +3,7 @@ import { RequestError } from '../errors'
 import { byteAddressOf, type ExtendUnit, extendUnitOf } from '../melsec/extend-unit'
 import type { Profile } from '../melsec/profiles/profile'
 import type { DeviceMemory, ExtensionMemory } from './memory'
-import { furtherRefusals, Refusal } from './refusal'
+import { Refusal } from './refusal'
 
 /** The connected module's own buffer memory. */
 export class OwnBuffer {
@@ -12,7 +12,7 @@ export class OwnBuffer {
 
   constructor(profile: Profile, points: number) {
     this.#words = new Uint16Array(points)
-    this.#endCode = furtherRefusals[profile.id].bufferMemory
+    this.#endCode = profile.refusals.bufferMemory
   }
 
   read(address: number, points: number): number[] {
@@ -79,7 +79,7 @@ export class ExtendUnits {
       throw new Refusal(this.#profile.refusals.extension, `Extend Unit: there is no module with No. ${moduleNumber}`)
     }
     const offset = address - byteAddressOf(found, 0)
-    if (offset < 0) throw new Refusal(furtherRefusals[this.#profile.id].bufferMemory, 'in front of the buffer memory')
+    if (offset < 0) throw new Refusal(this.#profile.refusals.bufferMemory, 'in front of the buffer memory')
     const head = { device: 'G', number: offset / 2, extension: { kind: 'module', unit: found.unit } } as const
     return { head, points: byteCount / 2 }
   }

@@ -7,7 +7,7 @@ import { devicesOf, type FoundDevice } from '../melsec/device/uses'
 import { isConnectedStation, type Route, stationText } from '../melsec/frame/route'
 import { exclusionOf, lackOf, type Profile } from '../melsec/profiles/profile'
 import type { ReceivedRequest } from '../melsec/protocol'
-import { furtherRefusals, Refusal, requestErrors } from './refusal'
+import { Refusal, requestErrors } from './refusal'
 
 /** @throws Refusal with the end code a PLC of this family gives. */
 export function checkRequest(profile: Profile, code: DataCode, request: ReceivedRequest): void {
@@ -45,18 +45,18 @@ function checkDevice(profile: Profile, { name, command }: ReceivedRequest, { add
 /** Which of the manual's restrictions on devices it is. */
 function accessEndCode(profile: Profile, { address, use }: Pick<FoundDevice, 'address' | 'use'>): number {
   const info = deviceInfo(address.device)
-  const further = furtherRefusals[profile.id]
+  const { monitoredContact, device, wholeDevices } = profile.refusals
   if (info.notIn?.includes(use.command) === true) {
-    return info.bitBlocksOnly === true ? further.monitoredContact : further.device
+    return info.bitBlocksOnly === true ? monitoredContact : device
   }
-  if (info.wholeDevices?.includes(use.command) === true) return further.wholeDevices
+  if (info.wholeDevices?.includes(use.command) === true) return wholeDevices
   const modified = address.index ?? address.extensionIndex ?? address.indirect
-  return modified === undefined ? further.device : requestErrors.content
+  return modified === undefined ? device : requestErrors.content
 }
 
 /** Why a request is not for this PLC, or undefined when it is. */
 export function routeRefusal(profile: Profile, route: Route): Refusal | undefined {
-  const { station, module } = furtherRefusals[profile.id]
+  const { station, module } = profile.refusals
   if (!isConnectedStation(route) || route.multidrop !== 0) {
     return new Refusal(station, `no way to network ${route.network}, ${stationText(route).toLowerCase()}`)
   }

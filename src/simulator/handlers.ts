@@ -101,8 +101,7 @@ export const handlers: { readonly [N in CommandName]: Handler<N> } = {
     return {}
   },
   lock({ password }, { caller, profile }) {
-    // FX5 communication manual 38.6: length and password are not used by Lock.
-    caller.lock.lock(profile.id === 'iq-f' ? undefined : password)
+    caller.lock.lock(profile.password.lockChecks ? password : undefined)
     return {}
   },
   readMemory: ({ address, points }, { buffer }) => ({ values: buffer.read(address, points) }),

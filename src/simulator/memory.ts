@@ -1,9 +1,8 @@
 // Device memory of the simulated PLC, with the ranges of its profile.
 import { type DeviceAddress, type DeviceExtension, type DeviceName, deviceInfo, devices } from '../melsec/device/device'
 import type { Profile } from '../melsec/profiles/profile'
-import { profiles } from '../melsec/profiles/profiles'
 import { DeviceAddresses } from './device-addresses'
-import { type FurtherRefusals, furtherRefusals, Refusal } from './refusal'
+import { Refusal } from './refusal'
 import {
   devicesOfDoubleWord,
   devicesOfWords,
@@ -51,13 +50,11 @@ export type AccessUnit = 'bit' | 'word' | 'doubleWord'
  */
 export class DeviceMemory {
   readonly #profile: Profile
-  readonly #further: FurtherRefusals
   readonly #regions = new Map<string, Region>()
   readonly #addresses = new DeviceAddresses()
 
   constructor(profile: Profile, latch: readonly DeviceName[], extensions: ExtensionMemory = {}) {
     this.#profile = profile
-    this.#further = furtherRefusals[profile.id]
     this.#addDevices(latch)
     this.#addExtensions(extensions)
   }
@@ -115,7 +112,8 @@ export class DeviceMemory {
       unit === 'bit' ? points : unit === 'word' ? devicesOfWords(region, points) : devicesOfDoubleWord(region)
     if (start < 0 || start + count > region.cells.length) {
       const { kind = 'link' } = address.extension ?? {}
-      const endCode = kind === 'link' ? this.#profile.refusals.deviceNumber : this.#further.bufferMemory
+      const { deviceNumber, bufferMemory } = this.#profile.refusals
+      const endCode = kind === 'link' ? deviceNumber : bufferMemory
       throw new Refusal(
         endCode,
         `${address.device}${start} to ${start + count - 1} is beyond the range of ${region.cells.length} points`,
@@ -164,7 +162,8 @@ export class DeviceMemory {
   }
 
   #addDevices(latch: readonly DeviceName[]): void {
-    const points = pointsOf(this.#profile)
+    const { ranges } = this.#profile
+    const points = { ...ranges.simulated, ...ranges.points }
     for (const info of devices) {
       const count = points[info.name] ?? 0
       if (info.extensionOnly === true || count === 0 || this.#profile.absentDevices.includes(info.name)) continue
@@ -208,15 +207,6 @@ export class DeviceMemory {
     const info = deviceInfo(device)
     this.#regions.set(keyOf(device, extension), { info, cells: makeCells(info, points), latched: false })
   }
-}
-
-/** A profile that knows no ranges is given those of iQ-R: a simulated PLC needs some memory. */
-function pointsOf({ id, ranges, absentDevices }: Profile): Readonly<Partial<Record<DeviceName, number>>> {
-  if (Object.keys(profiles[id].ranges.points).length > 0) return ranges.points
-  const usual = Object.entries(profiles['iq-r'].ranges.points).filter(
-    ([name]) => !absentDevices.some((absent) => absent === name),
-  )
-  return { ...Object.fromEntries(usual), ...ranges.points }
 }
 
 function keyOf(device: DeviceName, extension: DeviceExtension): string {

@@ -129,22 +129,6 @@ export interface Settings {
   readonly clock: Clock
 }
 
-/** R08CPU, FX5U-32MR/ES, Q03UDVCPU, Q06HCPU, L02CPU, RJ72GF15-T2, NZ2GF-ETB. */
-const MODEL_CODES: Readonly<Record<ProfileId, number>> = {
-  'iq-r': 0x4801,
-  'iq-f': 0x4a21,
-  'fx5-enet': 0x4a21,
-  q: 0x0366,
-  'q-built-in': 0x0366,
-  'q-e71': 0x0042,
-  l: 0x0541,
-  'remote-head': 0x4860,
-  'nz2gf-etb': 0x0642,
-  // What 1E tells of itself (a-compatible-type.ts); it has no names.
-  fx3: 0xf3,
-  generic: 0x4801,
-}
-
 const MODEL_LENGTH = 16
 
 /** @throws RequestError BAD_OPTION */
@@ -157,11 +141,11 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
     frames: framesOf(profile, code, options.frames),
     asciiXy: digitsOf(profile, options.asciiXy),
     asciiZr: oneOf('asciiZr', options.asciiZr ?? 'decimal', ['decimal', 'hexadecimal']),
-    oddBits: oneOf('oddBits', options.oddBits ?? (profile.id === 'fx3' ? 'padded' : 'exact'), ['exact', 'padded']),
+    oddBits: oneOf('oddBits', options.oddBits ?? profile.aCompatible?.oddBits ?? 'exact', ['exact', 'padded']),
     host: options.host ?? '127.0.0.1',
     tcp: options.tcp ?? {},
     udp: options.udp ?? {},
-    model: modelFor(profile.id, options.model),
+    model: modelFor(profile, options.model),
     maxConnections: wholeNumber('maxConnections', options.maxConnections ?? profile.connections.most, 1),
     entryRelease: milliseconds('entryRelease', options.entryRelease ?? 0),
     otherStations: oneOf('otherStations', options.otherStations ?? 'refuse', ['refuse', 'silence']),
@@ -199,9 +183,9 @@ function framesOf(profile: Profile, code: DataCode, frames?: readonly FrameName[
   return frames === undefined ? possible : frames.map((frame) => oneOf('frames', frame, possible))
 }
 
-function modelFor(id: ProfileId, given: PlcSimulatorOptions['model']): Call['model'] {
-  const code = given?.code ?? MODEL_CODES[id]
-  const name = given?.name ?? modelOf(code)?.models[0] ?? (id === 'fx3' ? 'FX3U' : '')
+function modelFor({ model }: Profile, given: PlcSimulatorOptions['model']): Call['model'] {
+  const code = given?.code ?? model.code
+  const name = given?.name ?? modelOf(code)?.models[0] ?? model.name ?? ''
   if (!/^[\x20-\x7e]+$/.test(name) || name.length > MODEL_LENGTH) {
     badOption('model.name', `A model name has 1 to ${MODEL_LENGTH} ASCII characters, unlike ${JSON.stringify(name)}.`)
   }

@@ -94,9 +94,9 @@ export const demoPlantTags: Readonly<Record<PlantVariant, readonly PlantTag[]>> 
   'iq-f': tagsOf('iq-f'),
 }
 
-/** The tags that fit a profile: those with octal inputs and outputs for iQ-F, whatever its port. */
+/** The tags that fit a profile: those of `iq-f` where inputs and outputs are octal, on whatever port. */
 export function plantVariantOf(profile: ProfileId): PlantVariant {
-  return profiles[profile].cpu === 'iq-f' ? 'iq-f' : 'iq-r'
+  return profiles[profile].xyRadix === 8 ? 'iq-f' : 'iq-r'
 }
 
 /**

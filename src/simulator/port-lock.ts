@@ -1,5 +1,5 @@
 // The remote password of the simulated port (SLMP reference manual 5.7, FX5 communication manual 13.2 and 38.6).
-import type { ProfileId } from '../melsec/profiles/profile'
+import type { PasswordFacts } from '../melsec/profiles/profile'
 import { PORT_LOCKED } from '../melsec/remote-password'
 import type { Clock } from '../transport/clock'
 import { Refusal } from './refusal'
@@ -14,45 +14,19 @@ export interface RemotePasswordSettings {
   readonly clock: Clock
 }
 
-/** End codes of a password that is not taken. */
-interface PasswordRefusals {
-  readonly wrong: number
-  /** The one that leads to the lock-out. */
-  readonly last: number
-  readonly lockedOut: number
-}
-
-// FX5 communication manual 47.4. C200 stands for every case on Q and L: background.
-const authentication: PasswordRefusals = { wrong: 0xc810, last: 0xc815, lockedOut: 0xc816 }
-const remotePassword: PasswordRefusals = { wrong: 0xc200, last: 0xc200, lockedOut: 0xc200 }
-const passwordRefusals: Readonly<Record<ProfileId, PasswordRefusals>> = {
-  'iq-r': authentication,
-  'iq-f': authentication,
-  'remote-head': authentication,
-  generic: authentication,
-  q: remotePassword,
-  'q-built-in': remotePassword,
-  'q-e71': remotePassword,
-  l: remotePassword,
-  'nz2gf-etb': remotePassword,
-  // They have no command for it.
-  'fx5-enet': authentication,
-  fx3: remotePassword,
-}
-
 /** ms without traffic after which a UDP connection is locked again (FX5 communication manual 13.2). */
 const UDP_IDLE = 10 * 60_000
 
 /** What the connections of a port share: the password, and how often it was wrong. */
 export class RemotePassword {
   readonly #settings: RemotePasswordSettings
-  readonly #refusals: PasswordRefusals
+  readonly #facts: PasswordFacts
   #failures = 0
   #lockedOutUntil = 0
 
-  constructor(profile: ProfileId, settings: RemotePasswordSettings) {
+  constructor(facts: PasswordFacts, settings: RemotePasswordSettings) {
     this.#settings = settings
-    this.#refusals = passwordRefusals[profile]
+    this.#facts = facts
   }
 
   get #now(): number {
@@ -72,7 +46,7 @@ export class RemotePassword {
 
   /** @throws Refusal when it is wrong, or was wrong too often. */
   #check(text: string): void {
-    const { wrong, last, lockedOut } = this.#refusals
+    const { wrong, last, lockedOut } = this.#facts
     if (this.#now < this.#lockedOutUntil) throw new Refusal(lockedOut, 'remote password: locked out')
     if (text === this.#settings.password) {
       this.#failures = 0
@@ -123,7 +97,7 @@ export class PortLock {
     this.#unlocked = true
   }
 
-  /** A locked port stays as it is. `password` is undefined where the CPU does not look at it. */
+  /** A locked port stays as it is. `password` is undefined where the port does not look at it. */
   lock(password: string | undefined): void {
     if (!this.#parts.given || !this.#unlocked) return
     if (password !== undefined) this.#parts.check(password)

@@ -1,5 +1,4 @@
 // How the simulated PLC says no. What a family answers is in its profile; here is what profiles do not hold.
-import type { ProfileId } from '../melsec/profiles/profile'
 
 /** Ends the work on a request; the PLC answers with the end code. It never leaves this room. */
 export class Refusal extends Error {
@@ -26,56 +25,3 @@ export const requestErrors = {
   /** Only logged, never answered: binary expected, ASCII received, or another frame. */
   dataCode: 0xc06f,
 } as const
-
-/** End codes that depend on the family and that a profile does not need for the client's sake. */
-export interface FurtherRefusals {
-  /** Device that this command does not take. */
-  readonly device: number
-  /** Contact or coil of a timer or counter in Entry Monitor Device. */
-  readonly monitoredContact: number
-  /** Long timers and counters not in whole devices. */
-  readonly wholeDevices: number
-  /** Beyond the buffer memory of a module. */
-  readonly bufferMemory: number
-  /** A station that cannot be reached. */
-  readonly station: number
-  /** A module of this station that is no CPU. */
-  readonly module: number
-}
-
-// Background (error code lists of the CPU modules), with C051 of LCN and the iQ-F rows as measured by others.
-const cpuModules: FurtherRefusals = {
-  device: 0x4030,
-  monitoredContact: 0x4032,
-  wholeDevices: 0xc051,
-  bufferMemory: 0x4041,
-  station: 0x4b00,
-  module: 0x4b02,
-}
-
-const qAndL: FurtherRefusals = { ...cpuModules, device: 0xc05b }
-
-// 47.4: C05B device that cannot be accessed, C05F request that the target cannot execute, C056 address.
-const iqF: FurtherRefusals = {
-  device: 0xc05b,
-  monitoredContact: 0xc05b,
-  wholeDevices: 0xc05c,
-  bufferMemory: 0xc056,
-  station: 0xc05f,
-  module: 0xc05f,
-}
-
-export const furtherRefusals: Readonly<Record<ProfileId, FurtherRefusals>> = {
-  'iq-r': cpuModules,
-  generic: cpuModules,
-  'remote-head': cpuModules,
-  q: qAndL,
-  'q-built-in': qAndL,
-  'q-e71': qAndL,
-  l: qAndL,
-  'nz2gf-etb': qAndL,
-  'iq-f': iqF,
-  'fx5-enet': iqF,
-  // None of them is reached: the port checks 1E requests itself.
-  fx3: iqF,
-}

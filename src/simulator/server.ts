@@ -296,7 +296,7 @@ class Simulator implements PlcSimulator {
       heldDatagrams: [],
       datagramBuffer: { size: 1 + profile.inFlight.udpBuffer, used: 0 },
       observe: (event) => this.#observe(event),
-      password: new RemotePassword(profile.id, this.#settings),
+      password: new RemotePassword(profile.password, this.#settings),
     }
   }
 

@@ -94,7 +94,9 @@ function format5(sumCheck: boolean): FrameKind {
 
 function aCompatible(code: DataCode, family: 'iq-f' | 'fx3'): FrameKind {
   return kind(`1E ${code} ${family}`, () => {
-    const protocol = aCompatibleProtocol({ code, family, asciiXy: 'octal', oddBits: 'padded' })
+    const { aCompatible: facts } = profiles[family]
+    if (facts === undefined) throw new Error(`${family} takes no 1E frame`)
+    const protocol = aCompatibleProtocol({ code, family: facts, asciiXy: 'octal', oddBits: 'padded' })
     return headed(protocol, aCompatibleCommands, code, {
       explain: explaining({ frame: '1E', code, profile: family }),
       plc: { profile: family, frames: ['1E'] },

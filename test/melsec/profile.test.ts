@@ -4,6 +4,7 @@ import { commands } from '../../src/melsec/commands/commands'
 import { devices, findDevice } from '../../src/melsec/device/device'
 import { limitsOf, pointFields } from '../../src/melsec/device/limit'
 import { explainEndCode } from '../../src/melsec/end-codes/end-code'
+import { modelOf } from '../../src/melsec/model-code'
 import { fileCommandNames } from '../../src/melsec/profiles/files'
 import { labelCommandNames } from '../../src/melsec/profiles/no-labels'
 import {
@@ -82,6 +83,7 @@ describe('every profile', () => {
       ...profile.limits,
       profile.ranges,
       profile.refusals,
+      profile.password,
       profile.inFlight,
       profile.connections,
       profile.reach,
@@ -89,6 +91,7 @@ describe('every profile', () => {
       profile.monitoringTimer,
       profile.remote,
       ...Object.values(profile.subcommands),
+      ...(profile.aCompatible === undefined ? [] : [profile.aCompatible]),
     ]
     for (const { source } of sourced) expect(source.length).toBeGreaterThan(3)
     expect(Object.keys(profile.sources).sort()).toEqual([
@@ -118,7 +121,7 @@ describe('every profile', () => {
 
   test.each(all)('$id: every refusal has an end code with a text', (profile) => {
     const endCodes = [
-      ...Object.values(profile.refusals).filter((value) => typeof value === 'number'),
+      ...Object.values({ ...profile.refusals, ...profile.password }).filter((value) => typeof value === 'number'),
       ...[...profile.lacks, ...profile.doubtful, ...profile.exclusions, ...profile.limits].map(
         ({ endCode }) => endCode,
       ),
@@ -146,6 +149,21 @@ describe('every profile', () => {
       if (needsLong)
         expect([name, profile.forms.some((form) => form === 'long' || form === 'extendedLong')]).toEqual([name, true])
     }
+  })
+
+  test.each(all)(
+    '$id: 1E facts where it has the frame; its usual model is in the list of models, or has a name',
+    (profile) => {
+      expect(profile.aCompatible !== undefined).toBe(profile.frames.includes('1E'))
+      const { code, name } = profile.model
+      expect(modelOf(code) === undefined).toBe(name !== undefined)
+    },
+  )
+
+  test.each(all)('$id: a simulated PLC has X, M, D and T, whatever is known of the ranges', ({ ranges }) => {
+    const points = { ...ranges.simulated, ...ranges.points }
+    for (const name of ['X', 'M', 'D', 'TN'] as const) expect(points[name]).toBeGreaterThan(0)
+    expect(ranges.simulated === undefined).toBe(Object.keys(ranges.points).length > 0)
   })
 
   test.each(all)('$id: the monitoring timer default can be sent: a multiple of 250 ms', (profile) => {

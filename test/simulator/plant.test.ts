@@ -35,7 +35,7 @@ function plant(options: PlcSimulatorOptions = {}, interval = 200) {
   return { ...joined, demo, tags, get, set, seconds, until }
 }
 
-describe.each(['iq-r', 'iq-f', 'q'] as const)('on %s', (profile) => {
+describe.each(['iq-r', 'iq-f', 'q', 'fx3'] as const)('on %s', (profile) => {
   test('makes batches: fills, heats, mixes, empties, counts, and takes the next product', () => {
     const { get, until, seconds } = plant({ profile })
     seconds(1)

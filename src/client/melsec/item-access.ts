@@ -152,6 +152,10 @@ export class ItemAccess {
     return explainItem(parsed, this.#parts.protocol, this.#notation)
   }
 
+  get #isCalledAsInFrame(): boolean {
+    return this.#parts.settings.profile.aCompatible?.calledAsInFrame === true
+  }
+
   get #planOptions(): { readonly gap: number } & AddressOptions {
     return { gap: this.#parts.settings.gap, ...this.#notation }
   }
@@ -196,7 +200,7 @@ export class ItemAccess {
 
   /** At once, because the ways over its parts would lead to a counter of 16 bits first. */
   #longCounter(item: Item): AnyItem | undefined {
-    if (this.#parts.settings.profile.id !== 'fx3') return undefined
+    if (!this.#isCalledAsInFrame) return undefined
     const text = itemText(item)
     const hint = longCounterHint(text)
     if (hint === undefined) return undefined
@@ -204,7 +208,7 @@ export class ItemAccess {
   }
 
   #renamed(item: ParsedItem): ParsedItem {
-    return this.#parts.settings.profile.id === 'fx3' ? { ...item, address: namedAsFx5(item.address) } : item
+    return this.#isCalledAsInFrame ? { ...item, address: namedAsFx5(item.address) } : item
   }
 
   /** The PLC registers per connection, and over UDP that is the local port. */

@@ -202,7 +202,7 @@ export function settle(options: MelsecClientOptions): Settings {
     timer: timerOf(profile, options.monitoringTimer),
     xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
     wRadix: wRadixOf(code, options.wRadix ?? profile.wRadix),
-    xyUnknown: profile.id === 'generic' && (options.xyRadix ?? options.profileOverrides?.xyRadix) === undefined,
+    xyUnknown: !profile.xyRadixKnown,
     timeout: wholeNumber('timeout', options.timeout ?? 3000, 1, LONGEST),
     connectTimeout: wholeNumber('connectTimeout', options.connectTimeout ?? 5000, 1, LONGEST),
     inFlight: inFlightOf(profile, transport, frame, options.inFlight),
@@ -222,8 +222,9 @@ export function settle(options: MelsecClientOptions): Settings {
 
 /** Of a PLC nobody knows the notation is the user's word for what it is, as if it stood in a profile. */
 function profileOf({ profile: given, profileOverrides, xyRadix }: MelsecClientOptions): Profile {
-  const profile = resolveProfile(profileGiven(given ?? 'generic'), profileOverrides ?? undefined)
-  return profile.id === 'generic' && (xyRadix === 8 || xyRadix === 16) ? { ...profile, xyRadix } : profile
+  const profile = resolveProfile(profileGiven(given ?? 'generic'))
+  const isSaid = !profile.xyRadixKnown && (xyRadix === 8 || xyRadix === 16)
+  return resolveProfile(profile, isSaid ? { ...profileOverrides, xyRadix } : (profileOverrides ?? undefined))
 }
 
 /** The PLC says the types of labels and how their words lie; only text has a code that it does not say. */

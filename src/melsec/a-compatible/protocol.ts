@@ -10,10 +10,9 @@ import { frame1e, type Head1e } from '../frame/frame-1e'
 import { type ACompatibleCommandName, aCompatibleCommands } from './commands'
 import {
   type ACompatibleFamily,
-  type ACompatibleFamilyId,
-  aCompatibleFamilies,
   aCompatibleLimit,
   checkACompatible,
+  fx5Over1e,
   type OddBits,
   toFrame,
   windowOf,
@@ -21,8 +20,8 @@ import {
 
 export interface ACompatibleOptions {
   readonly code: DataCode
-  /** Which devices there are under which names, and how the PLC deviates. Default `iq-f`. */
-  readonly family?: ACompatibleFamilyId
+  /** Which devices there are under which names, and how the PLC deviates. Default: iQ-F. */
+  readonly family?: ACompatibleFamily
   /** PC number, default FFH: the connected station. */
   readonly pc?: number
   /** Monitoring timer in units of 250 ms, default 0 = wait for ever, which an FX5 CPU module demands. */
@@ -40,8 +39,7 @@ type Bag = Readonly<Record<string, unknown>>
  * @example aCompatibleProtocol({ code: 'binary' }).exchange(aCompatibleCommands.readWords, { head, points: 3 })
  */
 export function aCompatibleProtocol(options: ACompatibleOptions): HeadProtocol<Head1e> {
-  const { code, pc = 0xff, timer = 0, asciiXy } = options
-  const family: ACompatibleFamily = aCompatibleFamilies[options.family ?? 'iq-f']
+  const { code, pc = 0xff, timer = 0, asciiXy, family = fx5Over1e } = options
   const oddBits = options.oddBits ?? family.oddBits
   return new HeadProtocol<Head1e>({
     framing: frame1e(code),

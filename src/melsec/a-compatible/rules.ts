@@ -60,30 +60,37 @@ export interface ACompatibleFamily {
   readonly oddBits?: OddBits
   /** Whether the answers that may end with a byte 00H (frame-1e.ts) do. A client takes both, a simulator sends it. */
   readonly zeroBehind: boolean
+  /** Users of the family call M8000, D8000 and C200 what the device table has under other names. */
+  readonly calledAsInFrame: boolean
+  /** What Read PC Type Name answers. */
+  readonly typeCode: number
   readonly source: string
 }
 
 export type OddBits = 'exact' | 'padded'
 
-export const aCompatibleFamilies = {
-  'iq-f': {
-    title: 'MELSEC iQ-F',
-    windows: fx5Windows,
-    zeroBehind: false,
-    source: 'FX5 communication manual 37.2 and 39; the length of the abnormal code is not printed',
-  },
-  fx3: {
-    title: 'MELSEC FX3',
-    windows: fx3Windows,
-    oddBits: 'padded',
-    zeroBehind: true,
-    source:
-      'background: FX3U-ENET-ADP user’s manual 7.3 (5BH is followed by 10H to 18H and 00H), 7.5 (dummy 30H) and 7.6.3 ' +
-      '(type code and 00H; so FX3U-ENET user’s manual 9.4.3)',
-  },
-} as const satisfies Readonly<Record<string, ACompatibleFamily>>
+/** FX5 CPU modules and Ethernet modules. */
+export const fx5Over1e: ACompatibleFamily = {
+  title: 'MELSEC iQ-F',
+  windows: fx5Windows,
+  zeroBehind: false,
+  calledAsInFrame: false,
+  typeCode: 0xf3,
+  source: 'FX5 communication manual 37.2 and 39; the length of the abnormal code is not printed',
+}
 
-export type ACompatibleFamilyId = keyof typeof aCompatibleFamilies
+/** FX3U-ENET-ADP and FX3U-ENET. */
+export const fx3Over1e: ACompatibleFamily = {
+  title: 'MELSEC FX3',
+  windows: fx3Windows,
+  oddBits: 'padded',
+  zeroBehind: true,
+  calledAsInFrame: true,
+  typeCode: 0xf3,
+  source:
+    'background: FX3U-ENET-ADP user’s manual 7.3 (5BH is followed by 10H to 18H and 00H), 7.5 (dummy 30H) and 7.6.3 ' +
+    '(type code and 00H; so FX3U-ENET user’s manual 9.4.3); FX5 communication manual 39.4: F3H of FX5 and FX3U alike',
+}
 
 /** Most points of one request: in bit units bits, in word units words; words of a bit device hold 16 of it. */
 export interface ACompatibleLimit {

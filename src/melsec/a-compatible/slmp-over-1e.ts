@@ -16,13 +16,7 @@ import { lackOf, type Profile } from '../profiles/profile'
 import type { ClientProtocol, ExchangeOptions } from '../protocol'
 import { aCompatibleCommands } from './commands'
 import { type ACompatibleOptions, aCompatibleProtocol } from './protocol'
-import {
-  type ACompatibleFamily,
-  type ACompatibleFamilyId,
-  type ACompatibleWindow,
-  aCompatibleFamilies,
-  windowOf,
-} from './rules'
+import { type ACompatibleFamily, type ACompatibleWindow, windowOf } from './rules'
 
 type Bag = Readonly<Record<string, unknown>>
 
@@ -50,13 +44,9 @@ export function protocolOver1e(options: SlmpOver1eOptions): ClientProtocol<Head3
   return new SlmpOver1e(options)
 }
 
-function familyOf({ cpu, title }: Profile): ACompatibleFamilyId {
-  if (isFamily(cpu)) return cpu
+function familyOf({ aCompatible, title }: Profile): ACompatibleFamily {
+  if (aCompatible !== undefined) return aCompatible
   throw new RequestError('BAD_OPTION', `${title} has no 1E frame here: use 3E.`, 'frame')
-}
-
-function isFamily(id: string): id is ACompatibleFamilyId {
-  return Object.hasOwn(aCompatibleFamilies, id)
 }
 
 function refuseOtherStations(route: Route): void {
@@ -79,11 +69,10 @@ class SlmpOver1e implements ClientProtocol<Head3e> {
 
   constructor({ profile, route, ...options }: SlmpOver1eOptions) {
     refuseOtherStations(route)
-    const family = familyOf(profile)
-    this.#family = aCompatibleFamilies[family]
-    this.#protocol = aCompatibleProtocol({ ...options, family })
+    this.#family = familyOf(profile)
+    this.#protocol = aCompatibleProtocol({ ...options, family: this.#family })
     this.framing = framingOf(this.#protocol.framing)
-    this.profile = profileOver1e(profile, this.#family.windows)
+    this.profile = profileOver1e(profile, this.#family)
     this.code = options.code
   }
 

@@ -5,7 +5,7 @@ import { type Direction, Explainer, type FrameExplanation } from '../../codec/ex
 import { aCompatibleCommands } from '../a-compatible/commands'
 import { aCompatibleDevice } from '../a-compatible/device'
 import { addressesOf } from '../a-compatible/protocol'
-import { aCompatibleFamilies, fromFrame } from '../a-compatible/rules'
+import { fromFrame, fx5Windows } from '../a-compatible/rules'
 import { pcTypeCodes } from '../a-compatible/type-code'
 import { formatDevice } from '../device/address'
 import { FORM_XY_OCTAL } from '../device/codec'
@@ -128,7 +128,7 @@ function describeData(leaf: Leaf, settings: Settings): string | undefined {
   const text = describeValue(leaf, settings)
   if (of.kind !== 'value' || of.codec !== aCompatibleDevice) return text
   const address = value as DeviceAddress
-  const real = fromFrame(aCompatibleFamilies['iq-f'].windows, address)
+  const real = fromFrame(fx5Windows, address)
   return real === undefined || real.device === address.device
     ? text
     : `${text}, on iQ-F ${formatDevice(real, settings)}`

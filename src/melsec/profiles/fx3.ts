@@ -1,6 +1,7 @@
-import { fx3Windows } from '../a-compatible/rules'
+import { fx3Over1e } from '../a-compatible/rules'
 import { noFileFacts } from './files'
 import { profileOver1e } from './over-1e'
+import { passwordMismatch } from './password'
 import type { Profile } from './profile'
 
 const manual = 'background: FX3U-ENET-ADP user’s manual, chapter 7'
@@ -16,6 +17,7 @@ export const fx3: Profile = profileOver1e(
     series: 'FX3U, FX3UC, FX3G, FX3GC and FX3S CPUs by FX3U-ENET-ADP or FX3U-ENET',
     cpu: 'fx3',
     xyRadix: 8,
+    xyRadixKnown: true,
     wRadix: 16,
     asciiXy: 'hexadecimal',
     frames: ['1E'],
@@ -31,6 +33,7 @@ export const fx3: Profile = profileOver1e(
     lacks: [],
     doubtful: [],
     exclusions: [],
+    aCompatible: fx3Over1e,
     limits: [],
     ranges: {
       points: {
@@ -62,8 +65,18 @@ export const fx3: Profile = profileOver1e(
       length: 0x57,
       notInStop: 0x5b,
       remote: 0x5b,
+      device: 0x56,
+      monitoredContact: 0x56,
+      wholeDevices: 0x57,
+      bufferMemory: 0x57,
+      station: 0x5b,
+      module: 0x5b,
       source: manual,
     },
+    // No command asks for it.
+    password: passwordMismatch,
+    // What 1E tells of itself; it has no names.
+    model: { code: fx3Over1e.typeCode, name: 'FX3U' },
     inFlight: { tcp: 1, udpBuffer: 0, ports: [], source: 'the answer names no request: one at a time' },
     connections: { most: 4, source: 'background: open settings of the FX3U-ENET-ADP' },
     reach: {
@@ -99,5 +112,5 @@ export const fx3: Profile = profileOver1e(
       absentDevices: manual,
     },
   },
-  fx3Windows,
+  fx3Over1e,
 )

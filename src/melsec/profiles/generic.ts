@@ -12,6 +12,7 @@ export const generic: Profile = {
   title: 'generic SLMP device',
   series: 'any device that speaks SLMP or the MC protocol',
   cpu: 'generic',
+  xyRadixKnown: false,
   asciiXy: 'setting',
   frame: '3E',
   form: 'short',
@@ -24,7 +25,7 @@ export const generic: Profile = {
     ...[...iqR.limits, ...iqF.limits].filter(({ unit }) => unit !== 'characters'),
     passwordLimit(4, 32, 'Q and L 4, iQ-R and iQ-F 6 to 32'),
   ],
-  ranges: { points: {}, source: 'unknown: no device number is checked' },
+  ranges: { points: {}, simulated: iqR.ranges.points, source: 'unknown: no device number is checked' },
   inFlight: { tcp: 1, udpBuffer: 0, ports: [], source: 'the lowest of all profiles' },
   // Nothing is known of it, so nothing is refused for it.
   reach: networks('unknown: the PLC says what it cannot reach; 03E1 is also head module No. 2', [0x3e2, 0x3e3]),

@@ -1,9 +1,11 @@
+import { fx5Over1e } from '../a-compatible/rules'
 import type { DeviceForm } from '../device/device-form'
 import type { LimitRule } from '../device/limit-rule'
 import { noFileFacts, noFiles } from './files'
 import { blockCounts, passwordLimit, randomWriteWeights, writtenBlockWeights } from './limits'
 import { noMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
+import { authentication } from './password'
 import type { Profile } from './profile'
 import { pointsOf } from './ranges'
 
@@ -80,6 +82,7 @@ export const iqF: Profile = {
   series: 'FX5S, FX5UJ, FX5U and FX5UC CPU modules by their Ethernet port',
   cpu: 'iq-f',
   xyRadix: 8,
+  xyRadixKnown: true,
   wRadix: 16,
   asciiXy: 'setting',
   frames: ['3E', '1E'],
@@ -131,6 +134,7 @@ export const iqF: Profile = {
       source: `${manual}, note of 1402`,
     },
   ],
+  aCompatible: fx5Over1e,
   limits,
   ranges: {
     points: pointsOf(
@@ -167,9 +171,22 @@ export const iqF: Profile = {
     length: 0xc061,
     notInStop: 0x4013,
     remote: 0x408b,
+    device: 0xc05b,
+    monitoredContact: 0xc05b,
+    wholeDevices: 0xc05c,
+    bufferMemory: 0xc056,
+    station: 0xc05f,
+    module: 0xc05f,
     source:
-      'end codes 47.4; device number, device name and absent module measured by others on FX5U and FX5UC; remote control background',
+      'end codes 47.4 (C05B device that cannot be accessed, C05F request that the target cannot execute, C056 address); device number, device name and absent module measured by others on FX5U and FX5UC; remote control background',
   },
+  password: {
+    ...authentication,
+    lockChecks: false,
+    source: 'end codes 47.4; 38.6: length and password are not used by Lock',
+  },
+  // FX5U-32MR/ES
+  model: { code: 0x4a21 },
   inFlight: {
     tcp: 1,
     udpBuffer: 0,

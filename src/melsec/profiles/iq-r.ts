@@ -1,6 +1,7 @@
 import { iqRFiles } from './files'
 import { iqRLimits } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
+import { authentication } from './password'
 import type { Profile } from './profile'
 import { pointsOf } from './ranges'
 import { networks, openSettings } from './reach'
@@ -12,6 +13,7 @@ export const iqR: Profile = {
   series: 'R00 to R120 CPUs (also EN, P, SF, PSF) by their Ethernet port or RJ71EN71; iQ-L and MELSEC MX behave alike',
   cpu: 'iq-r',
   xyRadix: 16,
+  xyRadixKnown: true,
   wRadix: 16,
   asciiXy: 'hexadecimal',
   frames: ['4E', '3E', 'ext'],
@@ -89,9 +91,18 @@ export const iqR: Profile = {
     length: 0xc061,
     notInStop: 0x4013,
     remote: 0x408b,
+    device: 0x4030,
+    monitoredContact: 0x4032,
+    wholeDevices: 0xc051,
+    bufferMemory: 0x4041,
+    station: 0x4b00,
+    module: 0x4b02,
     source:
-      'device number and name, also in an extension specification, measured by others on R120PCPU; the others background (error code lists of CPU and Ethernet modules)',
+      'device number and name, also in an extension specification, and parts of LCN measured by others on R120PCPU; the others background (error code lists of CPU and Ethernet modules)',
   },
+  password: authentication,
+  // R08CPU
+  model: { code: 0x4801 },
   inFlight: {
     tcp: 1,
     udpBuffer: 32,

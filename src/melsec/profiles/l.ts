@@ -21,6 +21,8 @@ export const l: Profile = {
     source:
       'device number, device name, command and extension measured by others on LCPU; the others background (error code lists of CPU and Ethernet modules)',
   },
+  // L02CPU
+  model: { code: 0x0541 },
   inFlight: {
     tcp: 1,
     udpBuffer: 57,

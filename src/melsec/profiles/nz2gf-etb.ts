@@ -30,7 +30,12 @@ export const nz2gfEtb: Profile = {
     lack('writeExtendUnit', 'It only reads there.', 'Use the buffer memory commands of the CPU.', damaged),
   ],
   limits: qAndLLimits,
-  ranges: { points: {}, source: 'not in the manuals at hand: no device number is checked' },
+  ranges: {
+    points: {},
+    simulated: q.ranges.points,
+    source: 'not in the manuals at hand: no device number is checked',
+  },
+  model: { code: 0x0642 },
   inFlight: {
     tcp: 1,
     udpBuffer: 50,

@@ -1,6 +1,6 @@
 // What is left of a profile when its PLC is spoken to in 1E frames: fewer commands and devices, and smaller requests.
 import type { ACompatibleCommandName } from '../a-compatible/commands'
-import { type ACompatibleWindow, aCompatibleLimitSource, aCompatibleLimits } from '../a-compatible/rules'
+import { type ACompatibleFamily, aCompatibleLimitSource, aCompatibleLimits } from '../a-compatible/rules'
 import { type CommandName, commands } from '../commands/commands'
 import { devices } from '../device/device'
 import type { DeviceForm } from '../device/device-form'
@@ -75,7 +75,7 @@ const exclusions: readonly DeviceExclusion[] = [
 ]
 
 /** The profile of the same PLC over 1E. */
-export function profileOver1e(profile: Profile, windows: readonly ACompatibleWindow[]): Profile {
+export function profileOver1e(profile: Profile, { windows }: ACompatibleFamily): Profile {
   const reached = new Set(windows.map(({ device }) => device))
   return {
     ...profile,

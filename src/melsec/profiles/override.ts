@@ -100,7 +100,8 @@ function withRanges(profile: Profile, overrides: Readonly<Partial<Record<DeviceN
     wholeNumber(`profile.ranges.${name}`, points, 0, Number.MAX_SAFE_INTEGER)
   }
   const { points, source } = profile.ranges
-  return { ...profile, ranges: { points: { ...points, ...overrides }, source: `${source}; ${SOURCE}` } }
+  const ranges = { ...profile.ranges, points: { ...points, ...overrides }, source: `${source}; ${SOURCE}` }
+  return { ...profile, ranges }
 }
 
 function withSubcommands(profile: Profile, overrides: NonNullable<ProfileOverrides['subcommands']>): Profile {
@@ -130,7 +131,7 @@ function withZrCountsDouble(profile: Profile, double: boolean): Profile {
 }
 
 function withXyRadix(profile: Profile, xyRadix: 8 | 16): Profile {
-  if (xyRadix === 8 || xyRadix === 16) return { ...profile, xyRadix }
+  if (xyRadix === 8 || xyRadix === 16) return { ...profile, xyRadix, xyRadixKnown: true }
   return badOption('profile.xyRadix', `profile.xyRadix is 8 (octal) or 16 (hexadecimal), not ${String(xyRadix)}.`)
 }
 

@@ -2,6 +2,7 @@
 
 import type { DataCode } from '../../codec/codec'
 import { RequestError } from '../../errors'
+import type { ACompatibleFamily } from '../a-compatible/rules'
 import type { CommandName } from '../commands/commands'
 import type { AddressOptions } from '../device/address'
 import type { DeviceName, ExtensionKind } from '../device/device'
@@ -72,6 +73,18 @@ export interface Refusals {
   readonly notInStop: number
   /** Remote control refused: another device stopped or paused the CPU, or reset is not permitted by parameter. */
   readonly remote: number
+  /** Device that this command does not take. */
+  readonly device: number
+  /** Contact or coil of a timer or counter in Entry Monitor Device. */
+  readonly monitoredContact: number
+  /** Long timers and counters not in whole devices. */
+  readonly wholeDevices: number
+  /** Beyond the buffer memory of a module. */
+  readonly bufferMemory: number
+  /** A station that cannot be reached. */
+  readonly station: number
+  /** A module of this station that is no CPU. */
+  readonly module: number
   readonly source: string
 }
 
@@ -96,6 +109,25 @@ export interface Reach {
   /** The port takes no other module I/O number. */
   readonly ownModuleIoOnly: boolean
   readonly source: string
+}
+
+/** The remote password of the port: how one is refused. */
+export interface PasswordFacts {
+  readonly wrong: number
+  /** The wrong one that leads to the lock-out. */
+  readonly last: number
+  /** No password is taken for a while, the right one neither. */
+  readonly lockedOut: number
+  /** Lock looks at the password; otherwise it locks with any. */
+  readonly lockChecks: boolean
+  readonly source: string
+}
+
+/** A usual CPU or module of the family: what a simulated one answers to Read Type Name. */
+export interface UsualModel {
+  readonly code: number
+  /** Where the code is in no list of models. */
+  readonly name?: string
 }
 
 /** Connections a port has at the same time. */
@@ -141,6 +173,8 @@ export interface RemoteFacts {
 export interface DeviceRanges {
   /** Points per device; the numbers go from 0 to points - 1. A device that is not here is not checked. */
   readonly points: Readonly<Partial<Record<DeviceName, number>>>
+  /** Points that a simulated PLC has beside them, where they are not known: it needs some memory. Never checked. */
+  readonly simulated?: Readonly<Partial<Record<DeviceName, number>>>
   readonly source: string
 }
 
@@ -210,6 +244,8 @@ export interface Profile {
   readonly cpu: ProfileId
   /** How X and Y are numbered in the engineering tool: `X17` is octal on iQ-F, hexadecimal elsewhere. */
   readonly xyRadix: 8 | 16
+  /** `false`: nobody knows, and numbers that would mean two devices are refused until the user says it. */
+  readonly xyRadixKnown: boolean
   /** How W is numbered: hexadecimal on every PLC; SLMP inverters are said to number it in decimal. */
   readonly wRadix: 10 | 16
   /** Digits of X and Y in ASCII code: as the port is set ("ASCII (X,Y OCT)", "(X,Y HEX)"), or always hexadecimal. */
@@ -236,9 +272,13 @@ export interface Profile {
   readonly exclusions: readonly DeviceExclusion[]
   /** What the port of this family does not take in 1E frames, beside what no 1E frame says. */
   readonly exclusions1e?: readonly DeviceExclusion[]
+  /** What 1E reaches and how it looks. Absent: the port takes no 1E frame. */
+  readonly aCompatible?: ACompatibleFamily
   readonly limits: readonly LimitRule[]
   readonly ranges: DeviceRanges
   readonly refusals: Refusals
+  readonly password: PasswordFacts
+  readonly model: UsualModel
   readonly inFlight: InFlight
   readonly connections: Connections
   readonly reach: Reach

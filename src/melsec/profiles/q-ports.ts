@@ -74,6 +74,8 @@ export const qE71: Profile = {
   title: 'MELSEC-Q Ethernet module',
   series: 'QCPU by QJ71E71-100 (QJ71E71-B2 and -B5 too)',
   doubtful: doubtfulOnQAndL.filter(({ command }) => command === 'clearError'),
+  // Q06HCPU
+  model: { code: 0x0042 },
   inFlight: {
     tcp: 1,
     udpBuffer: 57,

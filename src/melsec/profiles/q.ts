@@ -3,6 +3,7 @@ import { qFiles } from './files'
 import { qAndLLimits, zrTwice } from './limits'
 import { doubtfulMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
+import { passwordMismatch } from './password'
 import type { Lack, Profile, StatusRegister } from './profile'
 import { pointsOf } from './ranges'
 import { networks, openSettings } from './reach'
@@ -72,6 +73,7 @@ export const q: Profile = {
     'QCPU by QJ71E71-100, and QnUDE, QnUDV and QnUDPV CPUs by their own Ethernet port, when it is not known which',
   cpu: 'q',
   xyRadix: 16,
+  xyRadixKnown: true,
   wRadix: 16,
   asciiXy: 'hexadecimal',
   frames: ['3E', '4E'],
@@ -128,9 +130,18 @@ export const q: Profile = {
     length: 0xc061,
     notInStop: 0x4013,
     remote: 0x408b,
+    device: 0xc05b,
+    monitoredContact: 0x4032,
+    wholeDevices: 0xc051,
+    bufferMemory: 0x4041,
+    station: 0x4b00,
+    module: 0x4b02,
     source:
       'device number, device name, command and extension measured by others on QnUDV; the others background (error code lists of CPU and Ethernet modules)',
   },
+  password: passwordMismatch,
+  // Q03UDVCPU
+  model: { code: 0x0366 },
   inFlight: {
     tcp: 1,
     udpBuffer: 57,

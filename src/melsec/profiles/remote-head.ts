@@ -34,7 +34,13 @@ export const remoteHead: Profile = {
   ],
   exclusions: [],
   files: remoteHeadFiles,
-  ranges: { points: {}, source: 'not in the manuals at hand: no device number is checked' },
+  ranges: {
+    points: {},
+    simulated: iqR.ranges.points,
+    source: 'not in the manuals at hand: no device number is checked',
+  },
+  // RJ72GF15-T2
+  model: { code: 0x4860 },
   inFlight: {
     tcp: 1,
     udpBuffer: 32,
