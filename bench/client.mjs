@@ -1,5 +1,6 @@
-// The client over loopback TCP beside a bare socket that exchanges the same bytes, and its memory over many requests.
+// The client over loopback beside a bare socket that exchanges the same bytes, and its memory over many requests.
 import { fork } from 'node:child_process'
+import { createSocket } from 'node:dgram'
 import { once } from 'node:events'
 import { createRequire } from 'node:module'
 import { connect } from 'node:net'
@@ -8,30 +9,55 @@ import { compare, costPerCall, row, title } from './measure.mjs'
 const require = createRequire(import.meta.url)
 const { createMelsecClient } = require('../dist/src/index.js')
 
+const HOST = '127.0.0.1'
+
 async function startServer() {
   const server = fork(new URL('./server.mjs', import.meta.url))
-  const [{ port }] = await once(server, 'message')
-  return { port, stop: () => server.kill() }
+  const [ports] = await once(server, 'message')
+  return { ports, stop: () => server.kill() }
 }
 
-/** A socket that sends `request` and waits for as many bytes as the answer has. */
-async function bareSocket(port, request, answerLength) {
-  const socket = connect(port, '127.0.0.1')
+/** Sends `request` and waits for as many bytes as the answer has. */
+class Bare {
+  #missing = 0
+  #done = () => {}
+
+  received(chunk) {
+    this.#missing -= chunk.length
+    if (this.#missing === 0) this.#done()
+  }
+
+  exchange(answerLength, send) {
+    return new Promise((resolve) => {
+      this.#missing = answerLength
+      this.#done = resolve
+      send()
+    })
+  }
+}
+
+async function bareTcp(port, { request, answerLength }) {
+  const socket = connect(port, HOST)
   socket.setNoDelay(true)
   await once(socket, 'connect')
-  let missing = 0
-  let done = () => {}
-  socket.on('data', (chunk) => {
-    missing -= chunk.length
-    if (missing === 0) done()
-  })
-  const exchange = () =>
-    new Promise((resolve) => {
-      missing = answerLength
-      done = resolve
-      socket.write(request)
-    })
-  return { exchange, close: () => socket.destroy() }
+  const bare = new Bare()
+  socket.on('data', (chunk) => bare.received(chunk))
+  return {
+    exchange: () => bare.exchange(answerLength, () => socket.write(request)),
+    close: () => socket.destroy(),
+  }
+}
+
+async function bareUdp(port, { request, answerLength }) {
+  const socket = createSocket('udp4')
+  socket.connect(port, HOST)
+  await once(socket, 'connect')
+  const bare = new Bare()
+  socket.on('message', (chunk) => bare.received(chunk))
+  return {
+    exchange: () => bare.exchange(answerLength, () => socket.send(request)),
+    close: () => socket.close(),
+  }
 }
 
 /** The bytes the client really sends for a call, and the length of what comes back. */
@@ -47,47 +73,79 @@ async function bytesOf(client, call) {
   return { request: Buffer.concat(sent), answerLength: received }
 }
 
-export async function benchClient() {
-  const server = await startServer()
-  const client = createMelsecClient({ host: '127.0.0.1', port: server.port, profile: 'iq-f' })
-  await client.connect()
-  try {
-    const scattered = Array.from({ length: 100 }, (_, i) => `D${i * 150}`)
-    const plan = client.plan(scattered)
-    const block = client.plan(['D0:UINT[960]'])
-    title('Loopback TCP, 3E binary, one request after another', 'CPU us/call', 'calls/s', 'CPU - bare', 'CPU ratio')
-    await compareWithBare(server.port, client, 'read one word', () => client.read('D100'))
-    await compareWithBare(server.port, client, 'read 960 words', () => block.run())
-    await compareWithBare(server.port, client, 'prepared read of 100 scattered items', () => plan.run())
-    await benchPlanning(client, scattered)
-    await benchMemory(client)
-  } finally {
-    await client.close()
-    server.stop()
+const COLUMNS = ['CPU us/call', 'calls/s', 'of bare', 'CPU ratio']
+
+async function compareWithBare(bare, name, alternatives) {
+  const calls = Object.fromEntries(Object.entries(alternatives).map(([what, { call }]) => [what, call]))
+  const cost = await compare({ 'bare socket': bare.exchange, ...calls })
+  bare.close()
+  for (const [what, { cpu, wall, cpuRatio, speedRatio }] of Object.entries(cost)) {
+    const ratios = what === 'bare socket' ? [] : [speedRatio.toFixed(2), cpuRatio.toFixed(2)]
+    row(`${name}: ${what}`, cpu.toFixed(1), Math.round(1e6 / wall), ...ratios)
   }
 }
 
-async function compareWithBare(port, client, name, call) {
-  const { request, answerLength } = await bytesOf(client, call)
-  const bare = await bareSocket(port, request, answerLength)
-  const cost = await compare({ bare: bare.exchange, client: call })
-  bare.close()
-  row(`${name}: bare socket`, cost.bare.cpu.toFixed(1), Math.round(1e6 / cost.bare.wall), '', '')
-  const more = (cost.client.cpu - cost.bare.cpu).toFixed(1)
-  row(
-    `${name}: client`,
-    cost.client.cpu.toFixed(1),
-    Math.round(1e6 / cost.client.wall),
-    more,
-    (cost.client.cpu / cost.bare.cpu).toFixed(2),
-  )
+async function benchTcp(port, code, { withBlocks }) {
+  const client = createMelsecClient({ host: HOST, port, code, profile: 'iq-r', frame: '3E' })
+  await client.connect()
+  try {
+    title(`Loopback TCP, 3E ${code}, one request after another`, ...COLUMNS)
+    const calls = { 'one word': () => client.read('D100'), '960 words': () => client.read('D0:UINT[960]') }
+    if (withBlocks) {
+      const plan = client.plan(SCATTERED)
+      calls['prepared, 100 scattered items'] = () => plan.run()
+    }
+    for (const [name, call] of Object.entries(calls)) {
+      const bare = await bareTcp(port, await bytesOf(client, call))
+      await compareWithBare(bare, name, { client: { call } })
+    }
+    if (withBlocks) await benchMemory(client)
+  } finally {
+    await client.close()
+  }
 }
 
-async function benchPlanning(client, items) {
-  title('Planning', 'CPU us')
-  await costPerCall(() => client.plan(items), 200)
-  const { cpu } = await costPerCall(() => client.plan(items), 500)
-  row('plan of 100 scattered items, from text', cpu.toFixed(1))
+const SCATTERED = Array.from({ length: 100 }, (_, i) => `D${i * 150}`)
+
+/** Without a serial number an answer is told from earlier ones by its port, or, where that is fixed, by a self test. */
+async function benchUdp(port) {
+  const options = { host: HOST, port, profile: 'iq-r', transport: 'udp' }
+  const localPort = await freePort()
+  const clients = {
+    '3E, ports of its own': createMelsecClient({ ...options, frame: '3E' }),
+    '3E, fixed port and self tests': createMelsecClient({ ...options, frame: '3E', localPort }),
+  }
+  try {
+    for (const client of Object.values(clients)) await client.connect()
+    title('Loopback UDP, 3E binary, one word', ...COLUMNS)
+    const [first] = Object.values(clients)
+    const bare = await bareUdp(port, await bytesOf(first, () => first.read('D100')))
+    const alternatives = Object.entries(clients).map(([name, client]) => [name, { call: () => client.read('D100') }])
+    await compareWithBare(bare, 'one word', Object.fromEntries(alternatives))
+  } finally {
+    for (const client of Object.values(clients)) await client.close()
+  }
+}
+
+async function freePort() {
+  const socket = createSocket('udp4')
+  socket.bind(0, HOST)
+  await once(socket, 'listening')
+  const { port } = socket.address()
+  socket.close()
+  await once(socket, 'close')
+  return port
+}
+
+export async function benchClient() {
+  const server = await startServer()
+  try {
+    await benchTcp(server.ports.tcp, 'binary', { withBlocks: true })
+    await benchTcp(server.ports.tcp, 'ascii', { withBlocks: false })
+    await benchUdp(server.ports.udp)
+  } finally {
+    server.stop()
+  }
 }
 
 async function benchMemory(client) {

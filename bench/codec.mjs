@@ -7,7 +7,7 @@ const { decode, encode, field, readerOf, writerOf } = require('../dist/src/codec
 const { commands } = require('../dist/src/melsec/commands/commands.js')
 const { frame3e } = require('../dist/src/melsec/frame/slmp-frame.js')
 const { MelsecProtocol } = require('../dist/src/melsec/protocol.js')
-const { resolveProfile } = require('../dist/src/melsec/profiles/profile.js')
+const { resolveProfile } = require('../dist/src/melsec/profiles/profiles.js')
 const { ownStation } = require('../dist/src/melsec/frame/route.js')
 
 const WORDS = 960

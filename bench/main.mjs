@@ -4,10 +4,13 @@ import v8 from 'node:v8'
 import { runInNewContext } from 'node:vm'
 import { benchClient } from './client.mjs'
 import { benchCodec } from './codec.mjs'
+import { benchPlanning } from './planning.mjs'
 
 v8.setFlagsFromString('--expose_gc')
 globalThis.gc = runInNewContext('gc')
 
 console.log(`Node.js ${process.version}, ${cpus().length} x ${cpus()[0]?.model ?? 'unknown processor'}`)
-benchCodec()
-await benchClient()
+// All of them, or those that are named: node bench/main.mjs planning
+const benches = { client: benchClient, planning: benchPlanning, codec: benchCodec }
+const asked = process.argv.slice(2)
+for (const [name, bench] of Object.entries(benches)) if (asked.length === 0 || asked.includes(name)) await bench()

@@ -7,7 +7,7 @@ export function median(values) {
 }
 
 /** Nanoseconds per call of a synchronous function: the median of `rounds`, each long enough for the clock. */
-export function nanosPerCall(run, { rounds = 15, milliseconds = 40 } = {}) {
+export function nanosPerCall(run, { rounds = 9, milliseconds = 20 } = {}) {
   let calls = 1
   for (;;) {
     const start = process.hrtime.bigint()
@@ -34,19 +34,29 @@ export async function costPerCall(run, calls) {
   return { cpu: (used.user + used.system) / calls, wall }
 }
 
-/** Runs alternatives in turn, `rounds` times, and gives the median cost of each. */
-export async function compare(alternatives, { rounds = 9, calls = 2000 } = {}) {
-  const costs = Object.fromEntries(Object.keys(alternatives).map((name) => [name, { cpu: [], wall: [] }]))
-  for (const run of Object.values(alternatives)) await costPerCall(run, calls)
+/**
+ * Runs alternatives in turn, `rounds` times. Costs are medians over the rounds; ratios to the first alternative are
+ * medians of the ratios within a round, so that a slow moment of the machine is in both.
+ */
+export async function compare(alternatives, { rounds = 21, calls = 1000 } = {}) {
+  const entries = Object.entries(alternatives)
+  for (const [, run] of entries) await costPerCall(run, 3 * calls)
+  const costs = entries.map(() => [])
   for (let round = 0; round < rounds; round++) {
-    for (const [name, run] of Object.entries(alternatives)) {
-      const cost = await costPerCall(run, calls)
-      costs[name].cpu.push(cost.cpu)
-      costs[name].wall.push(cost.wall)
-    }
+    for (const [i, [, run]] of entries.entries()) costs[i].push(await costPerCall(run, calls))
   }
+  const [base] = costs
+  const middle = (own, of) => median(own.map(of))
   return Object.fromEntries(
-    Object.entries(costs).map(([name, { cpu, wall }]) => [name, { cpu: median(cpu), wall: median(wall) }]),
+    entries.map(([name], i) => [
+      name,
+      {
+        cpu: middle(costs[i], ({ cpu }) => cpu),
+        wall: middle(costs[i], ({ wall }) => wall),
+        cpuRatio: middle(costs[i], ({ cpu }, round) => cpu / base[round].cpu),
+        speedRatio: middle(costs[i], ({ wall }, round) => base[round].wall / wall),
+      },
+    ]),
   )
 }
 
