@@ -1,5 +1,5 @@
 // The simulated plant: two PLCs, each with a mixing tank, in a process of its own. Started by `npm start`.
-import { createPlcSimulator, startDemoPlant } from '../dist/src/index.js'
+import { createPlcSimulator, startDemoPlant } from '../dist/src/entry/simulator.js'
 import { endWithParent, tell } from './child.mjs'
 import { plcs } from './plcs.mjs'
 import { listenNear } from './ports.mjs'

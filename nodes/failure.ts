@@ -1,10 +1,10 @@
 // What a node hands to done(): an error that Node-RED carries to Catch nodes without losing what the plant must know.
 
 import { hex } from '../src/basics/hex'
+import { commands } from '../src/entry/codec'
 import type { Language, PlcErrorCode } from '../src/index'
 import {
   ConnectionError,
-  commands,
   EndCodeError,
   explainEndCode,
   headOfError,

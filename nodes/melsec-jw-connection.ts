@@ -1,6 +1,7 @@
 /** Node `melsec-jw-connection` (configuration): how to reach a PLC; its users share one client. */
 import type { Node, NodeAPI, NodeDef } from 'node-red'
-import { type ProfileId, profileIds, profiles, typeNames } from '../src/index'
+import { typeNames } from '../src/entry/address'
+import { type ProfileId, profileIds, profiles } from '../src/index'
 import { addressCheck } from './address-check'
 import { Connection, connectionOf, setConnection } from './connection'
 import { LONGEST_PAUSE, optionsOf, type Resolve, resolverOf, settingsOf } from './connection-settings'

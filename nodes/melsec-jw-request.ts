@@ -1,14 +1,7 @@
 /** Node `melsec-jw-request`: any command of the manuals, and the buffer memory of modules by their names. */
 import type { NodeAPI } from 'node-red'
-import {
-  type BufferMemory,
-  commandNamed,
-  commands,
-  describeCommand,
-  extendUnits,
-  type MelsecClient,
-  type ModulePlace,
-} from '../src/index'
+import { commandNamed, commands, describeCommand } from '../src/entry/codec'
+import { type BufferMemory, extendUnits, type MelsecClient, type ModulePlace } from '../src/index'
 import type { Connection } from './connection'
 import { refusal } from './failure'
 import { type Input, inputIn } from './input'

@@ -1,5 +1,6 @@
 // What a write node makes of values that are almost those of the type: text for numbers, 0 and 1 for bits.
-import { type MelsecClient, type PlcValue, parseType, valueTypes } from '../src/index'
+import { parseType, valueTypes } from '../src/entry/address'
+import type { MelsecClient, PlcValue } from '../src/index'
 import { NodeFailure } from './failure'
 import type { Texts } from './texts'
 import { isSame, type NamedEntry, type WritableValue } from './write-values'

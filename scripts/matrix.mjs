@@ -76,8 +76,8 @@ function userDirectory(parent, name, tarball) {
   return path
 }
 
-await main(() => {
-  setup()
+await main(async () => {
+  await setup()
   const wanted = process.argv[2] ?? ''
   const named = RUNTIMES.map((runtime) => ({
     ...runtime,

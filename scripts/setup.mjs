@@ -9,6 +9,7 @@ import { createHash } from 'node:crypto'
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs'
 import { dirname, extname, join, relative, sep } from 'node:path'
 import { fileURLToPath, pathToFileURL } from 'node:url'
+import { buildModules } from './modules.mjs'
 
 export const root = dirname(dirname(fileURLToPath(import.meta.url)))
 
@@ -88,6 +89,7 @@ function wantedBuild() {
     'tsconfig.json',
     'package-lock.json',
     'scripts/setup.mjs',
+    'scripts/modules.mjs',
   ]
   for (const file of sources)
     hash
@@ -101,7 +103,7 @@ function wantedBuild() {
  * Compiles into a fresh folder and swaps it in: a failed or interrupted build leaves the old dist alone, and nothing
  * that no source makes any more stays behind. The folder lies beside dist, so that relative paths come out the same.
  */
-export function build({ unchecked = false } = {}) {
+export async function build({ unchecked = false } = {}) {
   const wanted = wantedBuild()
   if (readOrEmpty(buildStamp) === wanted) return
   console.log('setup: building dist')
@@ -117,6 +119,8 @@ export function build({ unchecked = false } = {}) {
       mkdirSync(dirname(join(fresh, file)), { recursive: true })
       cpSync(join(root, file), join(fresh, file))
     }
+    const modules = filesBelow('src').filter((file) => !file.startsWith('src/cli/'))
+    await buildModules(modules, { root, outdir: join(fresh, 'esm'), readFile: (path) => readFileSync(path, 'utf8') })
     // Without the stamp the next set-up builds again, and then checks.
     if (!unchecked) writeFileSync(join(fresh, '.build-hash'), `${wanted}\n`)
     swapIn(fresh, old)
@@ -149,13 +153,13 @@ function moveIfThere(from, to) {
   }
 }
 
-export function setup({ buildOnly = false, unchecked = false } = {}) {
+export async function setup({ buildOnly = false, unchecked = false } = {}) {
   const major = Number(process.versions.node.split('.')[0])
   if (major < LOWEST_NODE) {
     throw new SetupError(`Node.js ${process.versions.node} is too old: this project needs ${LOWEST_NODE} or newer.`)
   }
   if (!buildOnly && !unchecked) install()
-  build({ unchecked })
+  await build({ unchecked })
 }
 
 /** Runs a script's main function: a SetupError becomes one clear line and exit code 1. */

@@ -137,7 +137,7 @@ function announcement(red, ports, models) {
 }
 
 await main(async () => {
-  setup()
+  await setup()
   try {
     await Promise.race([run(), askedToEnd])
   } finally {

@@ -14,8 +14,8 @@ const steps = [
   ['Tests', [bin('jest', 'bin', 'jest.js'), ...process.argv.slice(2)]],
 ]
 
-await main(() => {
-  setup()
+await main(async () => {
+  await setup()
   for (const [name, args] of steps) {
     const started = performance.now()
     console.log(`\n== ${name}`)

@@ -317,12 +317,19 @@ function dataOf(error: BaseError): PlcErrorData {
     message,
     outcome,
     ...Object.fromEntries(plain),
-    ...(error instanceof ProtocolError && error.bytes !== undefined
-      ? { bytes: Buffer.from(error.bytes).toString('hex') }
-      : {}),
+    ...(error instanceof ProtocolError && error.bytes !== undefined ? { bytes: hexOf(error.bytes) } : {}),
     ...(error instanceof WriteError ? { results: error.results.map(resultData) } : {}),
     ...(cause === undefined ? {} : { cause: causeData(cause) }),
   }
+}
+
+// By hand: browsers have no Buffer.
+function hexOf(bytes: Uint8Array): string {
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('')
+}
+
+function bytesOf(hex: string): Uint8Array {
+  return Uint8Array.from(hex.match(/[\da-f]{2}/gi) ?? [], (pair) => Number.parseInt(pair, 16))
 }
 
 function resultData(result: WriteResult): NonNullable<PlcErrorData['results']>[number] {
@@ -364,7 +371,7 @@ const MAKERS: Readonly<Record<string, (message: string, given: Bag) => PlcError>
   },
   ProtocolError: (message, given) => {
     const { bytes, offset } = given
-    const received = typeof bytes === 'string' ? Buffer.from(bytes, 'hex') : undefined
+    const received = typeof bytes === 'string' ? bytesOf(bytes) : undefined
     const at = typeof offset === 'number' ? offset : undefined
     return new ProtocolError(oneOf(given, 'code', PROTOCOL_CODES), message, at, received)
   },

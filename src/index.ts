@@ -17,15 +17,7 @@ export type {
   FileWriteOptions,
 } from './client/file/files'
 export { headOfError, nameResults } from './client/item/about'
-export {
-  formatItem,
-  type Item,
-  type ItemOptions,
-  type ParsedItem,
-  parseItem,
-  type RefusedItem,
-  tryParseItem,
-} from './client/item/item'
+export type { Item, ItemOptions } from './client/item/item'
 export type {
   Items,
   ItemValue,
@@ -68,8 +60,7 @@ export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
 export type { PlanDescription, RequestDescription } from './client/plan/request'
 export type { WriteOptions } from './client/plan/write'
-export type { DataCode, Declaration, Effect, FieldDescription, MessageInput, MessageOf } from './codec/codec'
-export { describe as describeFields } from './codec/codec'
+export type { DataCode, Declaration, MessageInput, MessageOf } from './codec/codec'
 export {
   ClosedError,
   ConnectionError,
@@ -87,19 +78,9 @@ export {
   WriteError,
   type WriteResult,
 } from './errors'
-export { explainJwFrame } from './jw/explain-frame'
-export {
-  type ACompatibleCommandName,
-  type ACompatibleCommands,
-  aCompatibleCommands,
-} from './melsec/a-compatible/commands'
 export type { RequestOf, ResponseOf } from './melsec/commands/command'
-export { type CommandDescription, commandNamed, describeCommand } from './melsec/commands/command-name'
-export { type CommandName, type Commands, commands } from './melsec/commands/commands'
-export { answerToJson, messageFromJson, messageToJson, type ToJsonOptions } from './melsec/commands/message-json'
-export { unsolicitedCommands } from './melsec/commands/on-demand'
-export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from './melsec/device/address'
-export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from './melsec/device/device'
+export type { CommandName, Commands } from './melsec/commands/commands'
+export type { DeviceAddress, DeviceName } from './melsec/device/device'
 export type { DeviceForm } from './melsec/device/device-form'
 export type { Notation } from './melsec/device/json'
 export {
@@ -110,7 +91,6 @@ export {
   type Language,
   languages,
 } from './melsec/end-codes/end-code'
-export { explainFrame, formatExplanation } from './melsec/explain/frame'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
 export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file/time'
 export { moduleIoNumbers, type Route } from './melsec/frame/route'
@@ -128,22 +108,17 @@ export {
 export { profiles, resolveProfile } from './melsec/profiles/profiles'
 export type { ExchangeOptions } from './melsec/protocol'
 export { isPortLocked } from './melsec/remote-password'
-export * from './simulator/simulator'
 export type { Clock } from './transport/clock'
 export type { OpenTransport, Transport, TransportHandlers } from './transport/transport'
 export {
   bytesOfText,
   type Encoding,
   encodings,
-  formatType,
   type PlcValue,
-  parseType,
   type TypeName,
   textOfBytes,
-  typeNames,
   type ValueFormat,
   type ValueOf,
   type ValueType,
   valueOfBytes,
-  valueTypes,
 } from './value/value'

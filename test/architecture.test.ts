@@ -46,16 +46,17 @@ const ROOMS: Readonly<Record<string, readonly string[]>> = {
   'client/file': ['errors', 'basics', 'melsec', 'client/connection'],
   'client/melsec': ['errors', 'basics', 'codec', 'link', 'melsec', 'value', 'transport', 'client'],
   simulator: ['errors', 'basics', 'codec', 'link', 'melsec', 'jw', 'value', 'transport'],
-  index: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'transport', 'client', 'simulator'],
-  cli: ['index', 'basics'],
-  nodes: ['index', 'basics'],
+  index: ['errors', 'codec', 'link', 'melsec', 'value', 'transport', 'client'],
+  entry: ['errors', 'codec', 'melsec', 'jw', 'value', 'client', 'simulator'],
+  cli: ['index', 'entry', 'basics'],
+  nodes: ['index', 'entry', 'basics'],
 }
 
 /** Modules that are not ours, and the rooms that may name them. Any other is refused. */
 const OUTSIDE: readonly (readonly [RegExp, readonly string[]])[] = [
   [/^node:(net|dgram|dns)$/, ['transport']],
   [/^serialport$/, ['transport']],
-  [/^iconv-lite$/, ['value', 'melsec']],
+  [/^iconv-lite$/, ['basics']],
   [/^commander$/, ['cli']],
   [/^node:buffer$/, Object.keys(ROOMS)],
   // Drives of the simulator that are folders of this computer.

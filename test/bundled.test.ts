@@ -5,8 +5,8 @@ import { mkdirSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { promisify } from 'node:util'
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
+import { bundle, bundlers } from './support/bundlers'
 import { type PackedProject, packedProject } from './support/packed'
-import { root } from './support/root'
 
 const run = promisify(execFile)
 const MINUTES = 60_000
@@ -21,7 +21,8 @@ afterAll(() => packed?.remove())
 /** Asserts by itself; what it prints is `fine`. */
 const program = `import assert from 'node:assert'
 import * as all from '@melsec-jw/plc'
-const { createMelsecClient, createPlcSimulator, plcErrorFrom, PlcError, bytesOfText, textOfBytes } = all
+import { createPlcSimulator } from '@melsec-jw/plc/simulator'
+const { createMelsecClient, plcErrorFrom, PlcError, bytesOfText, textOfBytes } = all
 const made = {
   RequestError: new all.RequestError('BAD_VALUE', 'm', 'f'),
   EndCodeError: new all.EndCodeError(0xc056, 'm'),
@@ -63,43 +64,6 @@ await plc.close()
 console.log('fine')
 `
 
-const withEsbuild = (format: string, minify: boolean) => `
-import { build } from 'esbuild'
-await build({ entryPoints: [entry], outfile, bundle: true, platform: 'node', target: 'node20', format: '${format}', minify: ${minify}${
-  format === 'esm'
-    ? `, banner: { js: "import { createRequire as makeRequire } from 'node:module'; const require = makeRequire(import.meta.url);" }`
-    : ''
-}, logLevel: 'error' })`
-
-const bundlers: Readonly<Record<string, readonly [text: string, extension: string]>> = {
-  'esbuild, ESM': [withEsbuild('esm', false), 'mjs'],
-  'esbuild, ESM, minified': [withEsbuild('esm', true), 'mjs'],
-  'esbuild, CommonJS': [withEsbuild('cjs', false), 'cjs'],
-  'esbuild, CommonJS, minified': [withEsbuild('cjs', true), 'cjs'],
-  'webpack in production mode': [
-    `
-import webpack from 'webpack'
-import { basename, dirname } from 'node:path'
-const stats = await new Promise((resolve, reject) => webpack({
-  mode: 'production', target: 'node20', entry, experiments: { topLevelAwait: true },
-  output: { path: dirname(outfile), filename: basename(outfile) },
-}, (error, stats) => error ? reject(error) : resolve(stats)))
-if (stats.hasErrors()) throw new Error(stats.toString())`,
-    'cjs',
-  ],
-  'vite in production mode': [
-    `
-import { build } from 'vite'
-import { basename, dirname } from 'node:path'
-await build({
-  configFile: false, mode: 'production', logLevel: 'error', root: dirname(entry), ssr: { noExternal: true, target: 'node' },
-  build: { ssr: entry, target: 'node20', minify: true, outDir: dirname(outfile), emptyOutDir: false,
-    rollupOptions: { output: { format: 'es', entryFileNames: basename(outfile) } } },
-})`,
-    'mjs',
-  ],
-}
-
 describe('the errors in a bundle', () => {
   test.each(Object.entries(bundlers))(
     '%s',
@@ -111,27 +75,13 @@ describe('the errors in a bundle', () => {
       // CommonJS has no await at the top: the program becomes a function there.
       const entry = join(packed.project, extension === 'cjs' ? 'program-cjs.mjs' : 'program.mjs')
       if (extension === 'cjs') writeFileSync(entry, wrapped(program))
-      const script = join(folder, 'build.mjs')
-      const constants = `const entry = ${JSON.stringify(entry)}; const outfile = ${JSON.stringify(outfile)}`
-      writeFileSync(script, resolved(`${text.trimStart()}\n`).replace(/^((?:import [^\n]*\n)*)/, `$1${constants}\n`))
-      await run(process.execPath, [script], { cwd: packed.project })
+      await bundle(text, entry, outfile)
       const { stdout } = await run(process.execPath, [outfile], { cwd: folder })
       expect(stdout.trim()).toBe('fine')
     },
     MINUTES,
   )
 })
-
-/** The bundlers are those of this project. */
-function resolved(text: string): string {
-  return text.replace(/from '(esbuild|webpack|vite)'/, (_, name: string) => `from ${JSON.stringify(modules[name])}`)
-}
-
-const modules: Readonly<Record<string, string>> = {
-  esbuild: join(root, 'node_modules/esbuild/lib/main.js'),
-  webpack: join(root, 'node_modules/webpack/lib/index.js'),
-  vite: join(root, 'node_modules/vite/dist/node/index.js'),
-}
 
 function wrapped(text: string): string {
   const [, imports = '', body = ''] = /^((?:import [^\n]*\n)*)(.*)$/s.exec(text) ?? []

@@ -16,6 +16,8 @@ interface Manifest {
   readonly engines: { readonly node: string }
   readonly dependencies: Readonly<Record<string, string>>
   readonly files: readonly string[]
+  readonly exports: Readonly<Record<string, Readonly<Record<string, string>> | string>>
+  readonly typesVersions: { readonly '*': Readonly<Record<string, readonly string[]>> }
   readonly 'node-red': { readonly version: string; readonly nodes: Readonly<Record<string, string>> }
 }
 
@@ -61,6 +63,14 @@ describe('package.json', () => {
   test('D01: has at most six dependencies, each at one version', () => {
     expect(Object.keys(manifest.dependencies).length).toBeLessThanOrEqual(6)
     expect(Object.values(manifest.dependencies).filter((version) => !/^\d+\.\d+\.\d+$/.test(version))).toEqual([])
+  })
+
+  test('older TypeScript finds the types of every sub-path where `exports` has them', () => {
+    const paths = Object.entries(manifest.exports).flatMap(([path, target]) =>
+      typeof target === 'string' || path === '.' ? [] : [[path.slice('./'.length), [target.types]]],
+    )
+    expect(paths).toHaveLength(3)
+    expect(manifest.typesVersions).toEqual({ '*': Object.fromEntries(paths) })
   })
 
   test('the validator reads every file of examples/ in the package as a flow, so only flows are packed', () => {

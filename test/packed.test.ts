@@ -40,26 +40,37 @@ async function node(file: string, text: string): Promise<string> {
   return stdout.trim()
 }
 
-const names = Object.keys(createRequire(join(root, 'package.json'))('./dist/src/index.js') as object).sort()
+const entries = [
+  { entry: '@melsec-jw/plc', file: './dist/src/index.js' },
+  ...['address', 'codec', 'simulator'].map((name) => ({
+    entry: `@melsec-jw/plc/${name}`,
+    file: `./dist/src/entry/${name}.js`,
+  })),
+].map(({ entry, file }) => ({
+  entry,
+  names: Object.keys(createRequire(join(root, 'package.json'))(file) as object).sort(),
+}))
 
 describe('the packed package in an empty project', () => {
-  test('has a client and a simulator among its names', () => {
-    expect(names).toEqual(expect.arrayContaining(['createMelsecClient', 'createPlcSimulator', 'commands', 'PlcError']))
+  test('has entries for clients, addresses, bytes and simulated PLCs', () => {
+    const some = ['createMelsecClient', 'parseItem', 'commands', 'createPlcSimulator']
+    expect(entries.map(({ names }) => some.filter((name) => names.includes(name)))).toEqual(some.map((name) => [name]))
   })
 
-  test('gives its names to require', async () => {
-    const text = `console.log(JSON.stringify(Object.keys(require('@melsec-jw/plc')).sort()))`
+  test.each(entries)('gives the names of $entry to require', async ({ entry, names }) => {
+    const text = `console.log(JSON.stringify(Object.keys(require('${entry}')).sort()))`
     expect(JSON.parse(await node('required.cjs', text))).toEqual(names)
   })
 
-  test('gives the same names to import', async () => {
-    const text = `import { ${names.join(', ')} } from '@melsec-jw/plc'
+  test.each(entries)('gives the same names of $entry to import', async ({ entry, names }) => {
+    const text = `import { ${names.join(', ')} } from '${entry}'
 console.log(JSON.stringify(Object.entries({ ${names.join(', ')} }).filter(([, value]) => value !== undefined).map(([name]) => name)))`
     expect(JSON.parse(await node('imported.mjs', text))).toEqual(names)
   })
 
   test('reads a simulated PLC in a program of the user', async () => {
-    const text = `import { createMelsecClient, createPlcSimulator } from '@melsec-jw/plc'
+    const text = `import { createMelsecClient } from '@melsec-jw/plc'
+import { createPlcSimulator } from '@melsec-jw/plc/simulator'
 const plc = createPlcSimulator({ profile: 'iq-r' })
 await plc.listen()
 const client = createMelsecClient({ host: '127.0.0.1', port: plc.tcp.port, profile: 'iq-r', allowWrites: true })
@@ -80,7 +91,24 @@ await plc.close()`
     expect(stdout).toContain('simulate')
   })
 
+  test('is there once, whether it is required or imported', async () => {
+    const text = `import { createRequire } from 'node:module'
+import { RequestError } from '@melsec-jw/plc'
+import { RequestError as ofAddresses } from '@melsec-jw/plc/address'
+const required = createRequire(import.meta.url)('@melsec-jw/plc')
+console.log(required.RequestError === RequestError, ofAddresses === RequestError)`
+    expect(await node('once.mjs', text)).toBe('true true')
+  })
+
   const program = `import { createMelsecClient, type ReadResult } from '@melsec-jw/plc'
+import { type ParsedItem, parseItem } from '@melsec-jw/plc/address'
+import { explainFrame } from '@melsec-jw/plc/codec'
+import { createPlcSimulator } from '@melsec-jw/plc/simulator'
+export const item: ParsedItem = parseItem('D100', { xyRadix: 16 })
+export const explained: object = explainFrame(Buffer.alloc(0))
+createPlcSimulator({ profile: 'iq-r' })
+// @ts-expect-error an item is a text
+parseItem(5, { xyRadix: 16 })
 const plc = createMelsecClient({ host: '192.0.2.1', port: 5007 })
 export async function level(): Promise<number> {
   const results: ReadResult[] = await plc.read(['D100', 'M0'])

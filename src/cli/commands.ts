@@ -1,4 +1,4 @@
-import { type CommandDescription, commandNamed, commands, describeCommand, type FieldDescription } from '../index'
+import { type CommandDescription, commandNamed, commands, describeCommand, type FieldDescription } from '../entry/codec'
 import { type MakeCommand, newCommand, perform } from './command'
 import { jsonOption } from './connection-options'
 import { exitCodes } from './exit-code'

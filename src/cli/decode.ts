@@ -1,4 +1,5 @@
-import { type DataCode, explainFrame, explainJwFrame, formatExplanation, type ProfileId } from '../index'
+import { explainFrame, explainJwFrame, formatExplanation } from '../entry/codec'
+import type { DataCode, ProfileId } from '../index'
 import { bytesOfText, pastedBytes } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addDigitOptions, choice, jsonOption, profileOption, wRadixOption } from './connection-options'

@@ -1,5 +1,6 @@
 // `--drive`: a folder of this computer as a drive of the simulated PLC.
-import { RequestError, type SimulatedDrives } from '../index'
+import type { SimulatedDrives } from '../entry/simulator'
+import { RequestError } from '../index'
 
 /**
  * Drives by their numbers, each written `number=folder`.

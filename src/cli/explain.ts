@@ -1,4 +1,5 @@
-import { type CommandName, commands, explainEndCode, type Language, languages, RequestError } from '../index'
+import { commands } from '../entry/codec'
+import { type CommandName, explainEndCode, type Language, languages, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { choice, jsonOption } from './connection-options'
 import { endCodeOf, endCodeText } from './end-code'

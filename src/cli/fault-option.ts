@@ -1,5 +1,7 @@
 // `--fault`: a fault of the simulated PLC as it is typed.
-import { type CommandName, commands, type Fault, type FaultKind, faultKinds, RequestError } from '../index'
+import { commands } from '../entry/codec'
+import { type Fault, type FaultKind, faultKinds } from '../entry/simulator'
+import { type CommandName, RequestError } from '../index'
 import { endCodeOf } from './end-code'
 
 /**

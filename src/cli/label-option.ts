@@ -1,6 +1,7 @@
 // `--label` and `--labels`: global labels of the simulated PLC as they are typed, or in a file.
 import { readFile } from 'node:fs/promises'
-import { RequestError, type SimulatedLabel, type SimulatedLabels } from '../index'
+import type { SimulatedLabel, SimulatedLabels } from '../entry/simulator'
+import { RequestError } from '../index'
 import { typedValue } from './typed-value'
 
 /**

@@ -1,6 +1,6 @@
 // `--module`: a module of the simulated PLC as it is typed.
 import { InvalidArgumentError } from 'commander'
-import type { ExtensionMemory } from '../index'
+import type { ExtensionMemory } from '../entry/simulator'
 
 type SimulatedModule = NonNullable<ExtensionMemory['modules']>[number]
 

@@ -1,7 +1,8 @@
 // On-demand of the simulated PLC: by itself, and as somebody types it.
 import { createInterface } from 'node:readline'
 import { InvalidArgumentError } from 'commander'
-import { type OnDemandData, PlcError, type PlcSimulator, RequestError } from '../index'
+import type { OnDemandData, PlcSimulator } from '../entry/simulator'
+import { PlcError, RequestError } from '../index'
 import type { Terminal } from './terminal'
 import { typedValue } from './typed-value'
 

@@ -1,12 +1,5 @@
-import {
-  answerToJson,
-  commandNamed,
-  createMelsecClient,
-  describeCommand,
-  type FieldDescription,
-  RequestError,
-  type RequestExplanation,
-} from '../index'
+import { answerToJson, commandNamed, describeCommand, type FieldDescription } from '../entry/codec'
+import { createMelsecClient, RequestError, type RequestExplanation } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, clientOptions, peerText, withClient } from './connection-options'
 import { exitCodes } from './exit-code'

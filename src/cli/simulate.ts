@@ -4,13 +4,12 @@ import {
   demoPlantTags,
   type Endpoint,
   type ExtensionMemory,
-  type FrameName,
   type PlcSimulator,
   type PlcSimulatorOptions,
-  type ProfileId,
   plantVariantOf,
   startDemoPlant,
-} from '../index'
+} from '../entry/simulator'
+import type { FrameName, ProfileId } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addCodeOptions, frameOption, jsonOption, profileOption, simulatedPassword, whole } from './connection-options'
 import { drivesOf } from './drive-option'

@@ -1,5 +1,6 @@
 // A value as it is typed on the command line, by the type of its item.
-import { type PlcValue, parseType, type ReadValue, RequestError, valueTypes } from '../index'
+import { parseType, valueTypes } from '../entry/address'
+import { type PlcValue, type ReadValue, RequestError } from '../index'
 
 /** Type and count of an item: see `ItemExplanation`. */
 export interface Wanted {

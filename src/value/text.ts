@@ -7,7 +7,7 @@
  */
 
 import { isAscii, isUtf8 } from 'node:buffer'
-import * as iconv from 'iconv-lite'
+import { type CodePage, decodePage, encodePage } from '../basics/code-page'
 import { hex, hexPairs } from '../basics/hex'
 import { show } from '../basics/show'
 import { ProtocolError, RequestError } from '../errors'
@@ -29,14 +29,14 @@ interface CharacterCode {
 // With the u flag a class of surrogates matches unpaired ones only. They are no characters: UTF-8 cannot carry them.
 const unpaired = /\p{Surrogate}/u
 
-/** A character code of one to four bytes for each character, in a table that iconv-lite has. */
-function byTable(title: string, table: string): CharacterCode {
+/** A character code of one to four bytes for each character. */
+function byTable(title: string, table: CodePage): CharacterCode {
   return {
     title,
     unit: 1,
-    encode: (text) => iconv.encode(text, table),
+    encode: (text) => encodePage(text, table),
     decode: (bytes) => {
-      const text = iconv.decode(bytes, table)
+      const text = decodePage(bytes, table)
       return text.includes('\ufffd') ? undefined : text
     },
   }
@@ -55,9 +55,7 @@ const codes: { readonly [E in Encoding]: CharacterCode } = {
     encode: (text) => Buffer.from(text, 'utf8'),
     decode: (bytes) => (isUtf8(bytes) ? bytes.toString('utf8') : undefined),
   },
-  // Code page 932, what Windows and so GX Works mean by Shift-JIS.
   'shift-jis': byTable('Shift-JIS', 'cp932'),
-  // Code page 936, what Windows and so GX Works mean by GBK.
   gbk: byTable('GBK', 'cp936'),
   gb18030: byTable('GB18030', 'gb18030'),
   utf16: {

@@ -1,7 +1,9 @@
 /** What only happens when somebody is there to answer; and how values are typed. In process, with a terminal of our own. */
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
 import { typedValue } from '../../src/cli/typed-value'
-import { createPlcSimulator, type PlcSimulator, RequestError, typeNames } from '../../src/index'
+import { typeNames } from '../../src/entry/address'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
+import { RequestError } from '../../src/index'
 import { runHere } from './in-process'
 
 let plc: PlcSimulator

@@ -3,7 +3,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'no
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
-import { createPlcSimulator, type PlcSimulator } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
 import { runHere } from './in-process'
 
 let plc: PlcSimulator

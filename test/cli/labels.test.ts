@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os'
 import { join } from 'node:path'
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { labelOf, labelsOf } from '../../src/cli/label-option'
-import { createPlcSimulator, type PlcSimulator } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
 import { runHere } from './in-process'
 
 let plc: PlcSimulator

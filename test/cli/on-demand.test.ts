@@ -2,7 +2,7 @@
 import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { runProgram } from '../../src/cli/program'
 import type { Terminal } from '../../src/cli/terminal'
-import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
 import { until } from '../client/line'
 import { build, type Running, start, startTyping } from './cli'
 import { runHere } from './in-process'

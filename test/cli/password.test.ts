@@ -1,6 +1,6 @@
 /** The remote password of the command line: typed or from the environment, never an argument. */
 import { afterAll, afterEach, beforeAll, expect, test } from '@jest/globals'
-import { createPlcSimulator, type PlcSimulator } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
 import { runHere } from './in-process'
 
 const PASSWORD = 'Secret-1'

@@ -1,6 +1,6 @@
 /** The commands that talk to a PLC, against a simulated one on the loopback interface. */
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
-import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
 import { build, type Ended, run, runWith } from './cli'
 import { runHere } from './in-process'
 

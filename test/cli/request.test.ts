@@ -1,6 +1,7 @@
 // Any command, and the buffer memory of modules, from the command line.
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
-import { commands, createPlcSimulator, type PlcSimulator } from '../../src/index'
+import { commands } from '../../src/entry/codec'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
 import { type Answered, runHere } from './in-process'
 
 let plc: PlcSimulator

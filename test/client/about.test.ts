@@ -1,6 +1,7 @@
 // Errors name the row they are about: `v17 (D99999999): ...`.
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, createPlcSimulator, EndCodeError, nameResults, PlcError } from '../../src/index'
+import { createPlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, EndCodeError, nameResults, PlcError } from '../../src/index'
 
 const ROWS = 30
 const BAD = 'D99999999'

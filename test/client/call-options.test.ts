@@ -1,6 +1,8 @@
 /** A misspelt option of a call is refused before anything is sent: it would be the usual one, and nobody would notice. */
 import { afterAll, beforeAll, expect, test } from '@jest/globals'
-import { commands, createMelsecClient, createPlcSimulator, type MelsecClient, type PlcSimulator } from '../../src/index'
+import { commands } from '../../src/entry/codec'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, type MelsecClient } from '../../src/index'
 import { clientOptions, failureOf, kind } from './line'
 
 let plc: PlcSimulator

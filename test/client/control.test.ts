@@ -1,6 +1,8 @@
 /** Remote control, identification, self test and clear error through sockets, as the simulated CPU sees them. */
 import { describe, expect, test } from '@jest/globals'
-import { commands, type EndCodeError, explainEndCode, type PlcSimulator, type ProfileId } from '../../src/index'
+import { commands } from '../../src/entry/codec'
+import type { PlcSimulator } from '../../src/entry/simulator'
+import { type EndCodeError, explainEndCode, type ProfileId } from '../../src/index'
 import type { OpenTransport } from '../../src/transport/transport'
 import { ample, failureOf, kinds, links, nextState, until, withLine } from './line'
 

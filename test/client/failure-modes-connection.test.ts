@@ -1,10 +1,9 @@
 /** Failure modes of connections: power cycles, taken entries, lost writes, and a PLC that says nothing. */
 import { describe, expect, test } from '@jest/globals'
+import { createPlcSimulator, type FaultKind } from '../../src/entry/simulator'
 import {
   type ConnectionState,
   createMelsecClient,
-  createPlcSimulator,
-  type FaultKind,
   type MelsecClient,
   type PlcError,
   TimeoutError,

@@ -1,8 +1,8 @@
 /** Failure modes of requests and data: end codes of every command, merged requests, addresses that mean another device. */
 import { describe, expect, test } from '@jest/globals'
+import { commands } from '../../src/entry/codec'
 import {
   type CommandName,
-  commands,
   EndCodeError,
   type MelsecClient,
   type PlcError,

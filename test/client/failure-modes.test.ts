@@ -1,13 +1,7 @@
 /** The ways in which PLC drivers fail in the field, each through sockets: first those of the wire. */
 import { describe, expect, test } from '@jest/globals'
-import {
-  type CallOptions,
-  createMelsecClient,
-  EndCodeError,
-  type FaultKind,
-  type PlcSimulator,
-  type ReadValue,
-} from '../../src/index'
+import type { FaultKind, PlcSimulator } from '../../src/entry/simulator'
+import { type CallOptions, createMelsecClient, EndCodeError, type ReadValue } from '../../src/index'
 import { rawServer } from '../transport/recorder'
 import { ample, brief, failureOf, type Line, links, nextState, until, withLine } from './line'
 

@@ -2,15 +2,13 @@
  * Writing a file is many requests. Here each of them fails in each way: whatever the error says must be true of the PLC.
  */
 import { afterEach, describe, expect, test } from '@jest/globals'
+import { createPlcSimulator, type Fault, type PlcSimulator } from '../../src/entry/simulator'
 import {
   createMelsecClient,
-  createPlcSimulator,
-  type Fault,
   type FileWriteOptions,
   type MelsecClient,
   type MelsecClientOptions,
   PlcError,
-  type PlcSimulator,
   type ProfileId,
 } from '../../src/index'
 

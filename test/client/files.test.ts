@@ -1,17 +1,15 @@
 /** Files of the CPU by name: through sockets, against the drives of the simulated PLC, in every form there is. */
 import { afterEach, describe, expect, test } from '@jest/globals'
+import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
 import {
   ClosedError,
   ConnectionError,
   createMelsecClient,
-  createPlcSimulator,
   EndCodeError,
   type FileProgress,
   fileTimeOf,
   type MelsecClient,
   type MelsecClientOptions,
-  type PlcSimulator,
-  type PlcSimulatorOptions,
   RequestError,
 } from '../../src/index'
 

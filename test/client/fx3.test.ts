@@ -6,13 +6,9 @@ import { createSocket } from 'node:dgram'
 import { once } from 'node:events'
 import { createServer, type Socket } from 'node:net'
 import { describe, expect, test } from '@jest/globals'
-import {
-  createMelsecClient,
-  createPlcSimulator,
-  explainFrame,
-  type MelsecClient,
-  type MelsecClientOptions,
-} from '../../src/index'
+import { explainFrame } from '../../src/entry/codec'
+import { createPlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, type MelsecClient, type MelsecClientOptions } from '../../src/index'
 
 type Code = 'binary' | 'ascii'
 const CODES = ['binary', 'ascii'] as const

@@ -1,13 +1,8 @@
 /** What programs without types pass, to every public method: a typed error, never a crash, never an unhandled rejection. */
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
-import {
-  commands,
-  createMelsecClient,
-  createPlcSimulator,
-  type MelsecClient,
-  PlcError,
-  type PlcSimulator,
-} from '../../src/index'
+import { commands } from '../../src/entry/codec'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, type MelsecClient, PlcError } from '../../src/index'
 import { clientOptions, kind } from './line'
 
 let plc: PlcSimulator

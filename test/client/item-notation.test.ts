@@ -1,6 +1,7 @@
 // Addresses as people type them, with the answer each gets.
 import { describe, expect, test } from '@jest/globals'
-import { createMelsecClient, createPlcSimulator, RequestError } from '../../src/index'
+import { createPlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, RequestError } from '../../src/index'
 
 type ProfileId = 'iq-r' | 'iq-f' | 'q' | 'fx3'
 

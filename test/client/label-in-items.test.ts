@@ -1,6 +1,7 @@
 /** Labels beside devices, wherever items are taken. */
 import { afterEach, beforeEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, createPlcSimulator, type MelsecClient, type PlcSimulator } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, type MelsecClient } from '../../src/index'
 
 let plc: PlcSimulator
 let client: MelsecClient

@@ -1,14 +1,12 @@
 /** Labels through sockets and in memory, against the label table of the simulated PLC. */
 import { afterEach, describe, expect, test } from '@jest/globals'
+import { createPlcSimulator, type PlcSimulator, type SimulatedLabels } from '../../src/entry/simulator'
 import {
   createMelsecClient,
-  createPlcSimulator,
   EndCodeError,
   type MelsecClient,
   type MelsecClientOptions,
-  type PlcSimulator,
   RequestError,
-  type SimulatedLabels,
 } from '../../src/index'
 
 const labels: SimulatedLabels = {

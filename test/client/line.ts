@@ -1,13 +1,11 @@
 /** The whole line: a client and a simulated PLC, joined by real sockets on loopback. */
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
 import {
   createMelsecClient,
-  createPlcSimulator,
   type FrameName,
   type MelsecClient,
   PlcError,
-  type PlcSimulator,
-  type PlcSimulatorOptions,
   type ProfileId,
   profiles,
   type ReadResult,

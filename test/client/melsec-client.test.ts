@@ -1,9 +1,9 @@
 /** Permissions, deadlines, signals, the queue, closing, events, and what programs without types pass. */
 import { describe, expect, jest, test } from '@jest/globals'
+import { commands } from '../../src/entry/codec'
 import {
   type CallOptions,
   type ClosedError,
-  commands,
   createMelsecClient,
   type MelsecClient,
   type MelsecClientOptions,

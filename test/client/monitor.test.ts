@@ -1,6 +1,8 @@
 /** Monitors through sockets: what is registered, what is read instead, and that no monitor reads another's devices. */
 import { describe, expect, test } from '@jest/globals'
-import { commands, createMelsecClient, createPlcSimulator, type Monitor, type RequestEvent } from '../../src/index'
+import { commands } from '../../src/entry/codec'
+import { createPlcSimulator, type RequestEvent } from '../../src/entry/simulator'
+import { createMelsecClient, type Monitor } from '../../src/index'
 import { ample, brief, clientOptions, kind, type Line, links, nextState, until, withLine } from './line'
 
 const registering = [

@@ -1,8 +1,9 @@
 /** On-demand at the client: what its events tell, and what is refused. */
 import { describe, expect, jest, test } from '@jest/globals'
+import { unsolicitedCommands } from '../../src/entry/codec'
+import { createPlcSimulator } from '../../src/entry/simulator'
 import {
   createMelsecClient,
-  createPlcSimulator,
   type MelsecClient,
   type MelsecClientOptions,
   type OnDemand,
@@ -10,7 +11,6 @@ import {
   ProtocolError,
   RequestError,
   type UnsolicitedFrame,
-  unsolicitedCommands,
 } from '../../src/index'
 import { ownStation } from '../../src/melsec/frame/route'
 import { frame3e } from '../../src/melsec/frame/slmp-frame'

@@ -1,6 +1,7 @@
 /** Plans that read() keeps: each belongs to its whole list, and they do not fill the memory. */
 import { afterEach, beforeEach, expect, jest, test } from '@jest/globals'
-import { createMelsecClient, createPlcSimulator, type MelsecClient, type PlcSimulator } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, type MelsecClient } from '../../src/index'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
 let plc: PlcSimulator

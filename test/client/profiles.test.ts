@@ -1,7 +1,8 @@
 /** Profiles of one kind of port, client against simulator: at the limits nothing is refused, behind them the end code. */
 import { describe, expect, test } from '@jest/globals'
+import { commands } from '../../src/entry/codec'
 import type { EndCodeError } from '../../src/errors'
-import { type CommandName, commands, type ProfileId } from '../../src/index'
+import type { CommandName, ProfileId } from '../../src/index'
 import { failureOf, withLine } from './line'
 
 const words = (count: number, step = 3, device = 'D') => Array.from({ length: count }, (_, n) => `${device}${n * step}`)

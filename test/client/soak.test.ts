@@ -1,14 +1,7 @@
 /** Many callers at once while everything goes wrong at random: no wrong value, no write twice, nothing that hangs. */
 import { expect, test } from '@jest/globals'
-import {
-  type CallOptions,
-  type Fault,
-  type MelsecClient,
-  type Monitor,
-  PlcError,
-  type PlcSimulator,
-  type ReadResult,
-} from '../../src/index'
+import type { Fault, PlcSimulator } from '../../src/entry/simulator'
+import { type CallOptions, type MelsecClient, type Monitor, PlcError, type ReadResult } from '../../src/index'
 import { openHandles } from '../transport/recorder'
 import { nextState, until, withLine } from './line'
 

@@ -1,13 +1,7 @@
 /** Writing many items: what resolves was written; results for each are asked for by name. */
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
-import {
-  createMelsecClient,
-  createPlcSimulator,
-  type MelsecClient,
-  type PlcError,
-  type PlcSimulator,
-  WriteError,
-} from '../../src/index'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
+import { createMelsecClient, type MelsecClient, type PlcError, WriteError } from '../../src/index'
 import { clientOptions, failureOf, kind } from './line'
 
 let plc: PlcSimulator

@@ -1,6 +1,6 @@
 /** A bit of a word is read, changed and written back: no other write of the same client may come between. */
 import { expect, test } from '@jest/globals'
-import { commands } from '../../src/index'
+import { commands } from '../../src/entry/codec'
 import { failureOf, withLine } from './line'
 
 const rmw = { readModifyWrite: true }

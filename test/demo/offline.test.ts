@@ -1,7 +1,7 @@
 /** The demo flow when its PLC goes away: the page says so, and its values do not pass for live ones. */
 import { afterAll, beforeAll, expect, jest, test } from '@jest/globals'
 import type { Page } from 'playwright-core'
-import { createPlcSimulator, type PlcSimulator, startDemoPlant } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator, startDemoPlant } from '../../src/entry/simulator'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { eventually, type RunningNodeRed, startDemoNodeRed, widget } from './running'
 

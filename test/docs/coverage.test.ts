@@ -3,6 +3,9 @@ import { describe, expect, test } from '@jest/globals'
 import { parse } from 'acorn'
 import { parseItem } from '../../src/client/item/item'
 import { settle } from '../../src/client/melsec/options'
+import * as address from '../../src/entry/address'
+import * as codec from '../../src/entry/codec'
+import * as simulator from '../../src/entry/simulator'
 import * as library from '../../src/index'
 import type { Command } from '../../src/melsec/commands/command'
 import { commands } from '../../src/melsec/commands/commands'
@@ -82,9 +85,18 @@ describe('options', () => {
 })
 
 describe('lists', () => {
-  test('what the library exports is in docs/client.md', () => {
-    const spans = codeSpansOf(proseOf('docs/client.md')).map((span) => /^\w+/.exec(span)?.[0])
-    expect(Object.keys(library).filter((name) => !spans.includes(name))).toEqual([])
+  test.each([
+    ['@melsec-jw/plc', library],
+    ['@melsec-jw/plc/address', address],
+    ['@melsec-jw/plc/codec', codec],
+    ['@melsec-jw/plc/simulator', simulator],
+  ])('what %s exports is in the table of docs/client.md', (name, entry) => {
+    const [, rest = ''] = proseOf('docs/client.md').split(`### From \`${name}\`\n`)
+    const spans = codeSpansOf(rest.split('\n### ')[0] ?? '')
+    expect(Object.keys(entry).filter((exported) => !spans.includes(exported))).toEqual([])
+    expect(spans.filter((span) => /^(create|parse|explain|describe)[A-Z]\w*$/.test(span) && !(span in entry))).toEqual(
+      [],
+    )
   })
 
   test('fault kinds and their parameters are those in docs/simulator.md', () => {

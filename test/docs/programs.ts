@@ -1,5 +1,9 @@
 /** Runs the programs of the documentation as they stand there, against simulated PLCs instead of the reader's. */
 import { format } from 'node:util'
+import * as address from '../../src/entry/address'
+import * as codec from '../../src/entry/codec'
+import * as simulation from '../../src/entry/simulator'
+import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
 import * as plc from '../../src/index'
 import type { Fence } from './markdown'
 
@@ -14,10 +18,10 @@ const READERS_FX3_PORT = 5551
 
 /** Opens simulated PLCs and gives a program the package with its addresses led to them. */
 export class Bench {
-  readonly #simulators = new Map<plc.PlcSimulator, number | undefined>()
+  readonly #simulators = new Map<PlcSimulator, number | undefined>()
 
   async open(): Promise<void> {
-    const simulator = plc.createPlcSimulator({
+    const simulator = createPlcSimulator({
       profile: 'iq-r',
       resetAllowed: true,
       bufferMemory: 0x4000,
@@ -27,7 +31,7 @@ export class Bench {
     await simulator.listen()
     fill(simulator)
     this.#simulators.set(simulator, READERS_PORT)
-    const fx3 = plc.createPlcSimulator({ profile: 'fx3' })
+    const fx3 = createPlcSimulator({ profile: 'fx3' })
     await fx3.listen()
     this.#simulators.set(fx3, READERS_FX3_PORT)
   }
@@ -52,25 +56,28 @@ export class Bench {
     const body = text.replace(IMPORT, (_, names: string, name: string) => {
       return `const ${names.replaceAll(' as ', ': ')} = modules[${JSON.stringify(name)}]`
     })
-    const modules: Readonly<Record<string, Module>> = { '@melsec-jw/plc': this.#package() }
+    const modules = this.#entries()
     const AsyncFunction = Object.getPrototypeOf(async () => {}).constructor as FunctionConstructor
     const program = new AsyncFunction('modules', 'console', body)
     await program(modules, { log: print, error: print })
     return printed.join('\n')
   }
 
-  #package(): Module {
+  #entries(): Readonly<Record<string, Module>> {
+    const createMelsecClient = (options: plc.MelsecClientOptions) => plc.createMelsecClient(this.#ledHere(options))
+    const simulator = (options: PlcSimulatorOptions = {}) => this.#simulator(options)
     return {
-      ...plc,
-      createMelsecClient: (options: plc.MelsecClientOptions) => plc.createMelsecClient(this.#ledHere(options)),
-      createPlcSimulator: (options: plc.PlcSimulatorOptions = {}) => this.#simulator(options),
+      '@melsec-jw/plc': { ...plc, createMelsecClient },
+      '@melsec-jw/plc/address': address,
+      '@melsec-jw/plc/codec': codec,
+      '@melsec-jw/plc/simulator': { ...simulation, createPlcSimulator: simulator },
     }
   }
 
   /** The port the program asks for may be taken on the machine that runs the tests. */
-  #simulator(options: plc.PlcSimulatorOptions): plc.PlcSimulator {
+  #simulator(options: PlcSimulatorOptions): PlcSimulator {
     const { tcp, udp } = options
-    const simulator = plc.createPlcSimulator({
+    const simulator = createPlcSimulator({
       ...options,
       tcp: tcp === false ? false : {},
       udp: udp === false ? false : {},
@@ -90,7 +97,7 @@ export class Bench {
 }
 
 /** The demo plant at one moment: what the programs of the documentation read, standing still. */
-function fill(simulator: plc.PlcSimulator): void {
+function fill(simulator: PlcSimulator): void {
   simulator.write('D100:REAL', 71.5)
   simulator.write('D102:REAL', 38.25)
   simulator.write('D120:DINT', 1234)

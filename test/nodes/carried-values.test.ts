@@ -4,7 +4,7 @@
  */
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
 import { carried } from '../../nodes/carried-value'
-import type { PlcSimulator } from '../../src/index'
+import type { PlcSimulator } from '../../src/entry/simulator'
 import { type HeadlessBrowser, launchBrowser } from '../support/browser'
 import { type FlowNode, type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { readText } from '../support/syntax'

@@ -2,7 +2,7 @@
 import { createServer, type Server, type Socket } from 'node:net'
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { answeringLines } from '../../nodes/connection-find'
-import type { PlcSimulator, PlcSimulatorOptions } from '../../src/index'
+import type { PlcSimulator, PlcSimulatorOptions } from '../../src/entry/simulator'
 import { type NodeRed, startNodeRed } from '../support/node-red'
 import { connectionTo, portOf, readNode, startPlc, variable } from './flow'
 

@@ -1,6 +1,7 @@
 /** The connection node: shared, in the background, through deploys, failures and wrong settings. */
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
-import { createPlcSimulator, type PlcSimulator, profileIds } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
+import { profileIds } from '../../src/index'
 import { type FlowNode, type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import {
   type CaughtError,

@@ -4,7 +4,10 @@
  */
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import type { Locator, Page } from 'playwright-core'
-import { commands, devices, type PlcSimulator, profileIds, typeNames } from '../../src/index'
+import { devices, typeNames } from '../../src/entry/address'
+import { commands } from '../../src/entry/codec'
+import type { PlcSimulator } from '../../src/entry/simulator'
+import { profileIds } from '../../src/index'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'

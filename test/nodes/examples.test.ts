@@ -1,6 +1,6 @@
 /** Every example flow, deployed against the simulated tank, sends what test/matrix/expectations.json says. */
 import { afterAll, beforeAll, expect, test } from '@jest/globals'
-import { type PlcSimulator, startDemoPlant } from '../../src/index'
+import { type PlcSimulator, startDemoPlant } from '../../src/entry/simulator'
 import { connectedTo, type Expectation, isOurs, onDemandOf, take } from '../support/examples'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'

@@ -4,7 +4,8 @@ import { join } from 'node:path'
 import { describe, expect, test } from '@jest/globals'
 import { detailsOf } from '../../nodes/failure'
 import type { Texts } from '../../nodes/texts'
-import { commands, EndCodeError, explainEndCode, type Language, languages, UnfinishedError } from '../../src/index'
+import { commands } from '../../src/entry/codec'
+import { EndCodeError, explainEndCode, type Language, languages, UnfinishedError } from '../../src/index'
 import { root } from '../support/root'
 
 /** The shared catalogue of a language, as Node-RED fills it in. */

@@ -1,6 +1,7 @@
 /** The file node in a real Node-RED, against the drives of a simulated PLC. */
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
-import type { FileEntry, PlcSimulator } from '../../src/index'
+import type { PlcSimulator } from '../../src/entry/simulator'
+import type { FileEntry } from '../../src/index'
 import { until } from '../client/line'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { type CaughtError, catchNode, connectionTo, fileNode, readNode, startPlc, variable } from './flow'

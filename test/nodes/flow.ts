@@ -1,5 +1,5 @@
 /** Flows for the tests of the nodes: a connection to a simulated PLC, and nodes that use it. */
-import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/index'
+import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
 import type { FlowNode } from '../support/node-red'
 
 type Settings = Readonly<Record<string, unknown>>

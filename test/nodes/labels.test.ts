@@ -1,6 +1,6 @@
 /** Labels in the read and write nodes, in a real Node-RED, against a simulated PLC. */
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
-import type { PlcSimulator } from '../../src/index'
+import type { PlcSimulator } from '../../src/entry/simulator'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { type CaughtError, catchNode, connectionTo, readNode, startPlc, writeNode } from './flow'
 

@@ -1,7 +1,7 @@
 /** How the dialogs lie in the editor: on a small screen, with many rows, on a dark theme. */
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import type { Page } from 'playwright-core'
-import type { PlcSimulator } from '../../src/index'
+import type { PlcSimulator } from '../../src/entry/simulator'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type NodeRed, startNodeRed } from '../support/node-red'
 import { close, edit, picture } from './dialog'

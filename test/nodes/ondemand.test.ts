@@ -1,6 +1,6 @@
 /** The on-demand node in a real Node-RED, against a simulated PLC that sends. */
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
-import type { PlcSimulator } from '../../src/index'
+import type { PlcSimulator } from '../../src/entry/simulator'
 import { until } from '../client/line'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { type CaughtError, catchNode, connectionTo, ondemandNode, readNode, startPlc } from './flow'

@@ -1,6 +1,7 @@
 /** The request node in a real Node-RED, against a simulated PLC: any command, and buffer memory of modules. */
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
-import { commands, type PlcSimulator } from '../../src/index'
+import { commands } from '../../src/entry/codec'
+import type { PlcSimulator } from '../../src/entry/simulator'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { readText } from '../support/syntax'
 import { type CaughtError, catchNode, connectionTo, requestNode, startPlc } from './flow'

@@ -1,6 +1,7 @@
 /** What depends on how Node-RED itself is set up: its language, and who may do what. */
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
-import { languages, type PlcSimulator } from '../../src/index'
+import type { PlcSimulator } from '../../src/entry/simulator'
+import { languages } from '../../src/index'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { readText } from '../support/syntax'
 import { type CaughtError, catchNode, connectionTo, portOf, readNode, startPlc, writeNode } from './flow'

@@ -2,7 +2,7 @@
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, test } from '@jest/globals'
 import type { WritableValue } from '../../nodes/write-values'
 import { fitting } from '../../nodes/written-value'
-import type { PlcSimulator } from '../../src/index'
+import type { PlcSimulator } from '../../src/entry/simulator'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { type CaughtError, catchNode, connectionTo, readNode, startPlc, writeNode } from './flow'
 

@@ -1,15 +1,7 @@
 /** On-demand from the simulated PLC to clients, over sockets and in memory. */
 import { describe, expect, test } from '@jest/globals'
-import {
-  ClosedError,
-  createMelsecClient,
-  createPlcSimulator,
-  type MelsecClient,
-  type OnDemand,
-  type OnDemandData,
-  type PlcSimulator,
-  RequestError,
-} from '../../src/index'
+import { createPlcSimulator, type OnDemandData, type PlcSimulator } from '../../src/entry/simulator'
+import { ClosedError, createMelsecClient, type MelsecClient, type OnDemand, RequestError } from '../../src/index'
 import { nextState, until, withLine } from '../client/line'
 import { hex, ON_DEMAND_DATA, ON_DEMAND_WORDS, onDemandFrames, text } from '../melsec/on-demand-frames'
 import { bench, readD, word } from './wire'

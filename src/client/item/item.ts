@@ -22,17 +22,9 @@ import {
   parseDevice,
 } from '../../melsec/device/address'
 import { deviceInfo, LAST_NUMBER } from '../../melsec/device/device'
-import {
-  checkFormat,
-  formatType,
-  parseType,
-  type TypeName,
-  typeNames,
-  type ValueFormat,
-  type ValueType,
-  valueTypes,
-  wordsOf,
-} from '../../value/value'
+// Not by the public names of the room: its conversions need Node.js, and items are checked in browsers, too.
+import { checkFormat, type ValueFormat } from '../../value/format'
+import { formatType, parseType, type TypeName, typeNames, type ValueType, valueTypes, wordsOf } from '../../value/type'
 import { otherNotation } from './notation'
 
 /** An item with options of its own; what is left out is the client's. */

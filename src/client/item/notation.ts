@@ -7,7 +7,7 @@
 import { hex } from '../../basics/hex'
 import { RequestError } from '../../errors'
 import { devices } from '../../melsec/device/device'
-import { parseType, type TypeName, valueTypes } from '../../value/value'
+import { parseType, type TypeName, valueTypes } from '../../value/type'
 
 /** Whether a text is an item. */
 type IsItem = (text: string) => boolean

@@ -1,0 +1,27 @@
+// The public names of `@melsec-jw/plc/address`: addresses, items and types as texts and data. No code. Nothing behind it needs
+// Node.js, so that an editor can check what is typed in a browser.
+
+export {
+  formatItem,
+  type Item,
+  type ItemOptions,
+  type ItemParseOptions,
+  type ParsedItem,
+  parseItem,
+  type RefusedItem,
+  tryParseItem,
+} from '../client/item/item'
+export { PlcError, RequestError } from '../errors'
+export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from '../melsec/device/address'
+export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from '../melsec/device/device'
+export { type Encoding, encodings, type ValueFormat } from '../value/format'
+export {
+  formatType,
+  type PlcValue,
+  parseType,
+  type TypeName,
+  typeNames,
+  type ValueOf,
+  type ValueType,
+  valueTypes,
+} from '../value/type'
