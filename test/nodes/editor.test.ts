@@ -197,6 +197,26 @@ describe('in English', () => {
     ])
   })
 
+  test('the on-demand dialog tells that 1E has none where the series of the connection speaks 1E', async () => {
+    const connect = (profile: unknown, frame: unknown) =>
+      page.evaluate(
+        ([p, f]) => Object.assign((globalThis as unknown as Editor).RED.nodes.node('plc'), { profile: p, frame: f }),
+        [profile, frame] as const,
+      )
+    const before = [await property(page, 'plc', 'profile'), await property(page, 'plc', 'frame')] as const
+    for (const [profile, frame, is1e] of [
+      ['fx3', '', true],
+      ['iq-f', '', false],
+      ['iq-f', '1E', true],
+    ] as const) {
+      await connect(profile, frame)
+      await edit(page, 'ondemand')
+      expect([profile, frame, await page.locator('.melsec-jw-1e').isVisible()]).toEqual([profile, frame, is1e])
+      await close(page, 'cancel')
+    }
+    await connect(...before)
+  })
+
   test('the control dialog shows what a command does, and what it needs', async () => {
     await edit(page, 'control')
     await page.getByText('The program stops, and outputs go off as the parameters say.').waitFor()

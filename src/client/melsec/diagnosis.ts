@@ -1,7 +1,7 @@
 // Why a PLC that can be reached says nothing: ranked causes, most likely first. A PLC never says which it is; these
 // are the settings that make one silent (FX5 communication manual: wrong data code "no response"; needs of the field).
 import type { DataCode } from '../../codec/codec'
-import { frameFacts } from '../../melsec/frame/frames'
+import { type FrameFacts, frameFacts } from '../../melsec/frame/frames'
 import { isConnectedStation, type RouteToStation, stationText } from '../../melsec/frame/route'
 import type { FrameName, TransportName } from '../../melsec/profiles/profile'
 import type { Silence } from '../connection/connection'
@@ -20,13 +20,6 @@ export interface LinkSettings {
 
 const OTHER_CODE = { binary: 'ASCII', ascii: 'binary' } as const
 const THIS_CODE = { binary: 'binary code', ascii: 'ASCII code' } as const
-const OTHER_FRAME = { '3E': '4E', '4E': '3E', ext: '4E', '1E': '3E' } as const
-/** Who knows the frame, where not every PLC does. */
-const KNOWN_TO: Readonly<Partial<Record<FrameName, string>>> = {
-  '3E': ' (an FX3 knows 1E only: choose its profile)',
-  '4E': ' (iQ-F and older E71 modules have 3E only)',
-  ext: ' (only an RJ71GN11-T2 knows and relays it)',
-}
 
 /** Ranked causes of a silence, as sentences that say what to check. */
 export function explainSilence(settings: LinkSettings, silence: Silence): readonly string[] {
@@ -42,10 +35,12 @@ function fromTheStart(settings: LinkSettings): readonly string[] {
     `UDP: the PLC sends its answer to the peer that is registered in its open settings; register this computer's address${localPort === undefined ? ' and set a fixed local port here' : ` and port ${localPort}`}, ` +
     'or choose an entry that answers anybody. A firewall on the way has the same effect.'
   const otherPort = `Port ${port} is open for something else (MELSOFT, socket, Modbus): use the port of an SLMP (MC protocol) entry.`
-  const otherFrame = `The PLC does not know the ${frameFacts[frame].title} frame: try ${OTHER_FRAME[frame]}${KNOWN_TO[frame] ?? ''}.`
+  const { title, instead, knownTo }: FrameFacts = frameFacts[frame]
+  const known = knownTo === undefined ? '' : ` (${knownTo})`
+  const otherFrame = `The PLC does not know the ${title} frame: try ${instead}${known}.`
   const elsewhere = `Network ${route.network}, ${stationText(route).toLowerCase()} does not answer: check the route, or leave it at the own station.`
   const routed = !isConnectedStation(route)
-  const frameCauses = frames?.includes(OTHER_FRAME[frame]) === false ? [] : [otherFrame]
+  const frameCauses = frames?.includes(instead) === false ? [] : [otherFrame]
   // 3E is known to all, binary is usual: who has neither chosen has a series whose default the PLC does not know (FX5 as iQ-R).
   const settingsOf =
     frame === '3E' || code === 'ascii' ? [dataCode, otherPort, ...frameCauses] : [...frameCauses, dataCode, otherPort]

@@ -1,23 +1,39 @@
 // The frames of MELSEC PLCs over Ethernet: what is true of each, whatever family speaks it.
 import type { DataCode } from '../../codec/codec'
 
-interface FrameFacts {
+export interface FrameFacts {
   /** For people: the manual's word without "frame". */
   readonly title: string
   /** Data codes that exist of it (SLMP reference manual 2.1). */
   readonly codes: readonly DataCode[]
   /** A serial number in the subheader tells late answers from new ones. */
   readonly serial: boolean
+  /** The frame to try on a PLC that says nothing to this one. */
+  readonly instead: '3E' | '4E'
+  /** Which PLCs know it or do not, for people, where not every PLC does. */
+  readonly knownTo?: string
 }
 
 const BOTH: readonly DataCode[] = ['binary', 'ascii']
 
 /** By the name that options take. 1E is the A-compatible frame with its own command set. */
 export const frameFacts = {
-  '3E': { title: '3E', codes: BOTH, serial: false },
-  '4E': { title: '4E', codes: BOTH, serial: true },
-  ext: { title: 'station extension', codes: ['binary'] as readonly DataCode[], serial: true },
-  '1E': { title: '1E', codes: BOTH, serial: false },
+  '3E': {
+    title: '3E',
+    codes: BOTH,
+    serial: false,
+    instead: '4E',
+    knownTo: 'an FX3 knows 1E only: choose its profile',
+  },
+  '4E': { title: '4E', codes: BOTH, serial: true, instead: '3E', knownTo: 'iQ-F and older E71 modules have 3E only' },
+  ext: {
+    title: 'station extension',
+    codes: ['binary'] as readonly DataCode[],
+    serial: true,
+    instead: '4E',
+    knownTo: 'only an RJ71GN11-T2 knows and relays it',
+  },
+  '1E': { title: '1E', codes: BOTH, serial: false, instead: '3E' },
 } as const satisfies Readonly<Record<string, FrameFacts>>
 
 export type FrameName = keyof typeof frameFacts
