@@ -6,6 +6,7 @@ import { type DataCode, writerOf } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { HeadProtocol, NamedCommand, RequestFrame } from '../link/link'
 import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-compatible/commands'
+import { slmpNameOf } from '../melsec/a-compatible/names'
 import { aCompatibleProtocol } from '../melsec/a-compatible/protocol'
 import {
   type ACompatibleFamily,
@@ -35,20 +36,6 @@ const END_CODES: Readonly<Record<ACompatibleProblem['kind'], number>> = {
   range: END.points,
   head: END.head,
 }
-
-/** Commands of 1E under the names the handlers have for them. */
-const HANDLED = {
-  readBits: 'readBits',
-  readWords: 'readWords',
-  writeBits: 'writeBits',
-  writeWords: 'writeWords',
-  writeRandomBits: 'writeRandomBits',
-  writeRandomWords: 'writeRandomWords',
-  remoteRun: 'remoteRun',
-  remoteStop: 'remoteStop',
-  readPcType: 'readTypeName',
-  loopback: 'selfTest',
-} as const satisfies Readonly<Record<ACompatibleCommandName, CommandName>>
 
 const CONNECTED_STATION = 0xff
 
@@ -98,7 +85,7 @@ export class ACompatiblePort {
     }
     const name = command.name as ACompatibleCommandName
     return {
-      name: HANDLED[name],
+      name: slmpNameOf(name),
       message: this.#translated(name, message),
       respond: (response) => {
         const asked = name === 'readPcType' ? { typeCode: this.#family.typeCode } : response
@@ -175,7 +162,7 @@ export class ACompatiblePort {
     const problem = aCompatibleProblem(windows, name, device, points)
     if (problem !== undefined) throw new Refusal(END_CODES[problem.kind], problem.message)
     const exclusion = this.#profile.exclusions1e?.find(
-      ({ commands, devices }) => commands.includes(HANDLED[name]) && devices.includes(device.device),
+      ({ commands, devices }) => commands.includes(slmpNameOf(name)) && devices.includes(device.device),
     )
     if (exclusion !== undefined) throw new Refusal(exclusion.endCode, exclusion.reason)
     return device

@@ -1,9 +1,9 @@
 // The requests that prove a connection, by the option `probe`.
 import { RequestError } from '../../errors'
 import { aCompatibleCommands } from '../../melsec/a-compatible/commands'
+import { over1e } from '../../melsec/a-compatible/names'
 import { commands } from '../../melsec/commands/commands'
 import type { Head3e } from '../../melsec/frame/slmp-frame'
-import { over1e } from '../../melsec/profiles/over-1e'
 import { lackOf, type Profile } from '../../melsec/profiles/profile'
 import type { ClientProtocol } from '../../melsec/protocol'
 import type { Probe } from '../connection/connection-options'

@@ -1,31 +1,11 @@
 // What is left of a profile when its PLC is spoken to in 1E frames: fewer commands and devices, and smaller requests.
-import type { ACompatibleCommandName } from '../a-compatible/commands'
+import { isOver1e, slmpNameOf } from '../a-compatible/names'
 import { type ACompatibleFamily, aCompatibleLimitSource, aCompatibleLimits } from '../a-compatible/rules'
 import { type CommandName, commands } from '../commands/commands'
 import { devices } from '../device/device'
 import type { DeviceForm } from '../device/device-form'
 import type { LimitRule, Weights } from '../device/limit-rule'
 import type { DeviceExclusion, Lack, Profile } from './profile'
-
-/** Commands of the SLMP set and what says the same in 1E. */
-export const over1e = {
-  readBits: 'readBits',
-  readWords: 'readWords',
-  writeBits: 'writeBits',
-  writeWords: 'writeWords',
-  writeRandomBits: 'writeRandomBits',
-  writeRandomWords: 'writeRandomWords',
-  remoteRun: 'remoteRun',
-  remoteStop: 'remoteStop',
-  readTypeName: 'readPcType',
-  selfTest: 'loopback',
-} as const satisfies Readonly<Partial<Record<CommandName, ACompatibleCommandName>>>
-
-export type Over1eName = keyof typeof over1e
-
-export function isOver1e(name: string): name is Over1eName {
-  return Object.hasOwn(over1e, name)
-}
 
 /** LCS and LCN have a long form only in the SLMP set; 1E has no forms, so both names of one mean the same here. */
 const forms: readonly DeviceForm[] = ['short', 'long']
@@ -58,10 +38,8 @@ const randomWords: Weights = { words: 1, doubleWords: 2 }
 function ruleOf({ command, of, max }: (typeof aCompatibleLimits)[number]): LimitRule[] {
   // The only command of 1E with a list of both kinds of devices has the same limit for them.
   if (command === 'writeRandomWords' && of === 'bit') return []
-  const name = Object.keys(over1e).find((key) => isOver1e(key) && over1e[key] === command)
-  if (name === undefined || !isOver1e(name)) return []
   const random = command === 'writeRandomWords' ? { sum: randomWords } : { of }
-  return [{ commands: [name], forms, ...random, max, unit: 'points', endCode: TOO_MANY, source }]
+  return [{ commands: [slmpNameOf(command)], forms, ...random, max, unit: 'points', endCode: TOO_MANY, source }]
 }
 
 function exclusion(commands: readonly CommandName[], device: 'CS' | 'LCS' | 'LCN', reason: string): DeviceExclusion {
