@@ -3,11 +3,11 @@ import type { DeviceForm } from '../device/device-form'
 import type { LimitRule } from '../device/limit-rule'
 import { noFileFacts, noFiles } from './files'
 import { blockCounts, passwordLimit, randomWriteWeights, writtenBlockWeights } from './limits'
-import { noMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
 import { authentication } from './password'
 import type { Profile } from './profile'
 import { pointsOf } from './ranges'
+import { noMemoryCommands } from './shared-lacks'
 
 const forms: readonly DeviceForm[] = ['short', 'extendedShort', 'extendedLong']
 const manual = 'FX5 communication manual 38.1 and 38.2'

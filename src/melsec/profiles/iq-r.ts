@@ -1,10 +1,10 @@
 import { iqRFiles } from './files'
 import { iqRLimits } from './limits'
-import { doubtfulMemoryCommands } from './memory-lacks'
 import { authentication } from './password'
 import type { Profile } from './profile'
 import { pointsOf } from './ranges'
-import { networks, openSettings } from './reach'
+import { networks, openSettings, ownStationTimer } from './reach'
+import { doubtfulClearError, doubtfulMemoryCommands } from './shared-lacks'
 
 /** Figures of SLMP reference manual SH(NA)-081293 unless said otherwise. */
 export const iqR: Profile = {
@@ -27,17 +27,7 @@ export const iqR: Profile = {
   extensions: ['link', 'module', 'cpu'],
   absentDevices: [],
   lacks: [],
-  doubtful: [
-    ...doubtfulMemoryCommands,
-    {
-      command: 'clearError',
-      endCode: 0xc059,
-      reason:
-        'The SLMP manual lists Clear Error for the NZ2GF-ETB only; Ethernet modules know it from the MC protocol.',
-      instead: 'Clear the error in GX Works or by the CPU program (SM50).',
-      source: 'table of commands and devices, marked as damaged in the edition at hand',
-    },
-  ],
+  doubtful: [...doubtfulMemoryCommands, doubtfulClearError],
   exclusions: [
     {
       commands: ['writeBits', 'writeWords', 'writeRandomBits', 'writeRandomWords', 'writeBlock'],
@@ -115,12 +105,7 @@ export const iqR: Profile = {
   connections: { most: 16, source: openSettings },
   reach: networks('2.3: the built-in port reaches its own station only, RJ71EN71 and network modules others too'),
   lastIndex: { Z: 24, LZ: 12, source: 'SLMP reference manual, appendix 1' },
-  monitoringTimer: {
-    default: 4000,
-    zeroOnly: false,
-    recommended: { from: 250, to: 10_000 },
-    source: '4.1 monitoring timer: 01H to 28H for the own station',
-  },
+  monitoringTimer: ownStationTimer,
   subcommands: {},
   remote: {
     clearModes: [0, 1, 2],

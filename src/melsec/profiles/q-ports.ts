@@ -3,14 +3,13 @@ import type { CommandName } from '../commands/commands'
 import { fileCommandNames } from './files'
 import { qAndLLimits } from './limits'
 import type { Lack, Profile } from './profile'
-import { doubtfulOnQAndL, q } from './q'
+import { notOnBuiltInPorts, q } from './q'
 import { connectedStation, networks } from './reach'
+import { doubtfulClearError } from './shared-lacks'
 
 const list = 'list of MC protocol commands of the QnUCPU manual (communication via built-in Ethernet port), 5.1.2'
 
-/** Measured to be refused by built-in ports; everything else that the list does not have is only doubtful. */
-const missing = doubtfulOnQAndL.filter(({ command }) => command !== 'clearError')
-
+/** Not measured, so only doubtful. */
 const notListed: readonly CommandName[] = [
   'remoteRun',
   'remoteStop',
@@ -42,7 +41,7 @@ export const qBuiltIn: Profile = {
   id: 'q-built-in',
   title: 'MELSEC-Q built-in Ethernet port',
   series: 'QnUDE, QnUDV and QnUDPV CPUs by their own Ethernet port',
-  lacks: [...q.lacks, ...missing],
+  lacks: [...q.lacks, ...notOnBuiltInPorts],
   doubtful: notListed.map(doubtful),
   extensions: ['link'],
   // High Performance model QCPUs, which count ZR twice, have no such port.
@@ -73,7 +72,7 @@ export const qE71: Profile = {
   id: 'q-e71',
   title: 'MELSEC-Q Ethernet module',
   series: 'QCPU by QJ71E71-100 (QJ71E71-B2 and -B5 too)',
-  doubtful: doubtfulOnQAndL.filter(({ command }) => command === 'clearError'),
+  doubtful: [doubtfulClearError],
   // Q06HCPU
   model: { code: 0x0042 },
   inFlight: {

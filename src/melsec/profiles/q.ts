@@ -1,12 +1,12 @@
 import type { DeviceName } from '../device/device'
 import { qFiles } from './files'
 import { qAndLLimits, zrTwice } from './limits'
-import { doubtfulMemoryCommands } from './memory-lacks'
 import { noLabels } from './no-labels'
 import { passwordMismatch } from './password'
 import type { Lack, Profile, StatusRegister } from './profile'
 import { pointsOf } from './ranges'
-import { networks, openSettings } from './reach'
+import { networks, openSettings, ownStationTimer } from './reach'
+import { doubtfulClearError, doubtfulMemoryCommands } from './shared-lacks'
 
 /** What Q and L share: long devices came with iQ-R. */
 export const absentOnQAndL: readonly DeviceName[] = [
@@ -27,8 +27,8 @@ export const absentOnQAndL: readonly DeviceName[] = [
 const builtIn =
   'measured by others: the built-in Ethernet ports of QnUDV and LCPU answer C059, Ethernet modules (E71) have it'
 
-/** Not on the CPU's own Ethernet port. */
-export const doubtfulOnQAndL: readonly Lack[] = [
+/** Measured to be refused by the CPU's own Ethernet port. */
+export const notOnBuiltInPorts: readonly Lack[] = [
   {
     command: 'readBlock',
     endCode: 0xc059,
@@ -49,13 +49,6 @@ export const doubtfulOnQAndL: readonly Lack[] = [
     reason: 'Built-in Ethernet ports do not have it.',
     instead: 'Take any successful read as the sign of life, and name the CPU yourself.',
     source: builtIn,
-  },
-  {
-    command: 'clearError',
-    endCode: 0xc059,
-    reason: 'The SLMP manual lists Clear Error for the NZ2GF-ETB only; Ethernet modules know it from the MC protocol.',
-    instead: 'Clear the error in GX Works or by the CPU program (SM50).',
-    source: 'table of commands and devices of the SLMP reference manual, marked as damaged in the edition at hand',
   },
 ]
 
@@ -87,7 +80,7 @@ export const q: Profile = {
   extensions: ['link', 'module'],
   absentDevices: absentOnQAndL,
   lacks: noLabels('SLMP reference manual 5.3: global labels of GX Works2 cannot be accessed'),
-  doubtful: [...doubtfulOnQAndL, ...doubtfulMemoryCommands],
+  doubtful: [...notOnBuiltInPorts, doubtfulClearError, ...doubtfulMemoryCommands],
   exclusions: [],
   limits: zrTwice(qAndLLimits),
   ranges: {
@@ -155,12 +148,7 @@ export const q: Profile = {
   connections: { most: 16, source: openSettings },
   reach: networks('2.3: a built-in port reaches its own station only, an Ethernet module others too'),
   lastIndex: { Z: 15, LZ: -1, source: 'SLMP reference manual, appendix 1; LZ came with iQ-R' },
-  monitoringTimer: {
-    default: 4000,
-    zeroOnly: false,
-    recommended: { from: 250, to: 10_000 },
-    source: '4.1 monitoring timer: 01H to 28H for the own station',
-  },
+  monitoringTimer: ownStationTimer,
   subcommands: {},
   remote: {
     clearModes: [0, 1, 2],

@@ -1,7 +1,15 @@
-import type { Reach } from './profile'
+// Ports of the SLMP reference manual: where they reach, and how long they wait.
+import type { MonitoringTimer, Reach } from './profile'
 
 /** Of a simulated PLC; what a real port has depends on its open settings. */
 export const openSettings = 'background: 16 open settings'
+
+export const ownStationTimer: MonitoringTimer = {
+  default: 4000,
+  zeroOnly: false,
+  recommended: { from: 250, to: 10_000 },
+  source: '4.1 monitoring timer: 01H to 28H for the own station',
+}
 
 const own = [0x3ff, 0x3e0, 0x3d0] as const
 

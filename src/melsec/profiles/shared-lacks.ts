@@ -1,3 +1,4 @@
+// Commands that several families lack, or of which nobody knows whether they have them.
 import type { CommandName } from '../commands/commands'
 import type { Lack } from './profile'
 
@@ -35,3 +36,12 @@ export const doubtfulMemoryCommands: readonly Lack[] = [
     ),
   ),
 ]
+
+/** Beside the NZ2GF-ETB. */
+export const doubtfulClearError: Lack = {
+  command: 'clearError',
+  endCode: 0xc059,
+  reason: 'The SLMP manual lists Clear Error for the NZ2GF-ETB only; Ethernet modules know it from the MC protocol.',
+  instead: 'Clear the error in GX Works or by the CPU program (SM50).',
+  source: 'table of commands and devices of the SLMP reference manual, marked as damaged in the edition at hand',
+}
