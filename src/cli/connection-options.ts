@@ -276,61 +276,37 @@ export function clientOptions(
   options: ConnectionOptions & FormatOptions,
   allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'> = {},
 ): MelsecClientOptions {
-  const {
-    profile,
-    frame,
-    ascii,
-    asciiXy,
-    asciiZr,
-    asciiWordOrder,
-    xyRadix,
-    wRadix,
-    monitoringTimer,
-    localAddress,
-    localPort,
-  } = options
-  const {
-    network,
-    station,
-    moduleIo: module,
-    multidrop,
-    extensionStation,
-    wordOrder,
-    byteOrder,
-    encoding,
-    probe,
-  } = options
   return {
     ...peerOf(options),
     transport: options.udp === true ? 'udp' : 'tcp',
-    code: ascii === true ? 'ascii' : 'binary',
+    code: options.ascii === true ? 'ascii' : 'binary',
     timeout: options.timeout,
     connectTimeout: options.connectTimeout,
-    route: given({ network, station, moduleIo: module, multidrop, extensionStation }),
-    format: given({ wordOrder, byteOrder, encoding }),
-    ...given({
-      profile,
-      frame,
-      asciiXy,
-      asciiZr,
-      asciiWordOrder,
-      xyRadix,
-      wRadix,
-      monitoringTimer,
-      localAddress,
-      localPort,
-      probe,
-    }),
+    route: given(options, ['network', 'station', 'moduleIo', 'multidrop', 'extensionStation']),
+    format: given(options, ['wordOrder', 'byteOrder', 'encoding']),
+    ...given(options, [
+      'profile',
+      'frame',
+      'asciiXy',
+      'asciiZr',
+      'asciiWordOrder',
+      'xyRadix',
+      'wRadix',
+      'monitoringTimer',
+      'localAddress',
+      'localPort',
+      'probe',
+    ]),
     ...allow,
   }
 }
 
 type Given<T> = { [K in keyof T]?: Exclude<T[K], undefined> }
 
-/** Without the options that were not given. */
-function given<T extends object>(options: T): Given<T> {
-  const entries = Object.entries(options).filter(([, value]) => value !== undefined)
-  return Object.fromEntries(entries) as Given<T>
+/** Those of the named options that were given. */
+function given<T extends object, K extends keyof T>(options: T, names: readonly K[]): Given<Pick<T, K>> {
+  const entries = names.map((name) => [name, options[name]] as const).filter(([, value]) => value !== undefined)
+  return Object.fromEntries(entries) as Given<Pick<T, K>>
 }
 
 /** e.g. `tcp 192.168.3.39:5010` */
@@ -349,7 +325,7 @@ export async function withClient<T>(
   prepare: (client: MelsecClient) => void = () => {},
 ): Promise<T> {
   const password = await passwordOf(terminal, options)
-  const client = createMelsecClient({ ...clientOptions(options, allow), ...given({ password }) })
+  const client = createMelsecClient({ ...clientOptions(options, allow), ...given({ password }, ['password']) })
   if (options.trace === true) {
     client.on('trace', ({ time, direction, text }) => {
       terminal.error(`${new Date(time).toISOString()} ${direction}\n${text}\n`)
