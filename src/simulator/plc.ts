@@ -1,6 +1,5 @@
 // The PLC behind the wire: what it answers to a request, without frames, connections or time.
 import type { CommandName } from '../melsec/commands/commands'
-import type { DeviceName } from '../melsec/device/device'
 import type { Head3e } from '../melsec/frame/slmp-frame'
 import type { Profile } from '../melsec/profiles/profile'
 import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
@@ -8,13 +7,12 @@ import type { AnyHead } from './any-frame'
 import { ExtendUnits, OwnBuffer } from './buffer-memory'
 import { checkRequest, routeRefusal } from './check'
 import { Cpu, type StateChange } from './cpu'
-import type { MountedDrive } from './drives'
 import { ErrorLog } from './error-log'
 import { Files, type FilesParts } from './files'
 import type { Call, Caller, Handler } from './handler'
 import { handlers } from './handlers'
-import type { LabelTable } from './labels'
-import { DeviceMemory, type ExtensionMemory } from './memory'
+import { DeviceMemory } from './memory'
+import type { Settings } from './options'
 import { ProgramMemory } from './program-memory'
 import { Refusal } from './refusal'
 import { type Ports, type Received, slmpOf } from './request'
@@ -28,21 +26,22 @@ export type Answer =
 /** Commands that a port takes while the remote password locks it. */
 const FREE: readonly CommandName[] = ['unlock', 'lock']
 
-export interface PlcParts {
-  readonly profile: Profile
-  readonly model: Call['model']
-  readonly latch: readonly DeviceName[]
-  readonly extensions: ExtensionMemory
-  /** Words. */
-  readonly bufferMemory: number
-  readonly labels: LabelTable
-  readonly drives: ReadonlyMap<number, MountedDrive>
-  readonly maxOpenFiles: number
-  readonly fileLocks: FilesParts['fileLocks']
+type PlcSettings =
+  | 'profile'
+  | 'model'
+  | 'latch'
+  | 'extensions'
+  | 'bufferMemory'
+  | 'labels'
+  | 'drives'
+  | 'maxOpenFiles'
+  | 'fileLocks'
+  | 'resetAllowed'
+  | 'otherStations'
+
+export interface PlcParts extends Pick<Settings, PlcSettings> {
   /** Clock of the PLC, as files have it. */
   readonly now: FilesParts['now']
-  readonly resetAllowed: boolean
-  readonly otherStations: 'refuse' | 'silence'
   readonly changed: (change: StateChange) => void
   /** Devices were set to 0 by remote control. */
   readonly cleared: (scope: 'unlatched' | 'all') => void

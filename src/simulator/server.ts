@@ -168,24 +168,14 @@ class Simulator implements PlcSimulator {
   #closing: Promise<void> | undefined
 
   constructor(settings: Settings) {
-    const { profile, clock, model, latch, extensions, bufferMemory, labels, resetAllowed, otherStations } = settings
+    const { profile, clock, labels } = settings
     this.#settings = settings
     const now = () => fileClock(clock.time())
     this.profile = profile
     this.clock = clock
     this.#plc = new Plc({
-      profile,
-      model,
-      latch,
-      extensions,
-      bufferMemory,
-      labels,
-      drives: settings.drives,
-      maxOpenFiles: settings.maxOpenFiles,
-      fileLocks: settings.fileLocks,
+      ...settings,
       now,
-      resetAllowed,
-      otherStations,
       changed: (change) => this.#events.emit('state', change),
       cleared: (scope) => this.#events.emit('clear', { scope }),
       restart: () => this.restart(),
