@@ -1,14 +1,18 @@
 /** Node `melsec-jw-read`: reads device values when a message arrives and passes the message on with them. */
 import type { NodeAPI } from 'node-red'
 import { type Item, type MelsecClient, nameResults } from '../src/index'
+import { busyRuleIn } from './busy'
 import { int64Forms } from './carried-value'
 import { refusal } from './failure'
 import type { Migration, StoredSettings } from './migration'
-import { registerUser, type Tools, type Work } from './node'
+import { registerUser, type Tools, type UserType, type Work } from './node'
 import { type NamedItems, namedItems } from './read-items'
 import { answerOf, checkForm, type OutputSettings, outputForms, partialRules } from './read-output'
 import { itemOf, nameOf, rowsIn, textIn, wordIn } from './stored'
+import { timedMessages } from './timed'
 import { evaluate } from './typed-input'
+
+const TYPE = 'melsec-jw-read'
 
 const migrations: readonly Migration[] = []
 
@@ -66,5 +70,7 @@ function preparedPlans(): (client: MelsecClient, items: readonly Item[]) => Retu
 }
 
 export = function register(RED: NodeAPI): void {
-  registerUser(RED, { type: 'melsec-jw-read', migrations, changesPlc: false, prepare })
+  const isTimed = timedMessages(RED, TYPE)
+  const busy: UserType['busy'] = (settings, { texts }) => busyRuleIn(settings, isTimed, texts)
+  registerUser(RED, { type: TYPE, migrations, changesPlc: false, busy, prepare })
 }

@@ -3,6 +3,7 @@
  * that `done` is called exactly once. A node itself only says what to do with a message.
  */
 import type { Node, NodeAPI, NodeDef, NodeMessage, NodeMessageInFlow } from 'node-red'
+import { Busy, type BusyRuleOf } from './busy'
 import { type Connection, connectionOf } from './connection'
 import { failureOf, type NodeFailure, refusal } from './failure'
 import { type Migration, migrated, type StoredSettings } from './migration'
@@ -37,6 +38,8 @@ export interface UserType {
   readonly migrations: readonly Migration[]
   /** It may change the PLC: a deploy waits for what is under way, and no outcome is kept quiet. */
   readonly changesPlc: boolean | ((settings: StoredSettings) => boolean)
+  /** What becomes of a message while one before it is under way. Without it each is worked on at once. */
+  readonly busy?: (settings: StoredSettings, tools: Tools) => BusyRuleOf
   /** A deploy waits even where nothing is changed: something has to be put in order again. */
   readonly putsInOrder?: true
   /**
@@ -77,7 +80,9 @@ function start(RED: NodeAPI, node: Node, type: UserType, stored: StoredSettings)
     const { connection, texts } = tools
     const changesPlc = typeof type.changesPlc === 'function' ? type.changesPlc(settings) : type.changesPlc
     const waits = changesPlc || type.putsInOrder === true
-    return () => serve(node, { work, connection, display, texts, changesPlc, waits })
+    const ruleOf = type.busy?.(settings, tools)
+    const entrance = ruleOf && { ruleOf, busy: new Busy(texts, () => connection.current?.state.name === 'connected') }
+    return () => serve(node, { work, connection, display, texts, changesPlc, waits, entrance })
   })
 }
 
@@ -126,26 +131,49 @@ interface Service {
   readonly changesPlc: boolean
   /** Closing the connection waits for what is under way. */
   readonly waits: boolean
+  readonly entrance: { readonly ruleOf: BusyRuleOf; readonly busy: Busy } | undefined
 }
 
 function serve(node: Node, service: Service): void {
+  const { connection, entrance, waits } = service
   let closed = false
   node.on('close', () => {
     closed = true
+    entrance?.busy.close()
   })
   node.on('input', (message, send, done) => {
-    const handled = handle(service, message, send, done, () => closed || service.connection.closed)
-    // What is wrong here is no result of the work, which handle() settles: it must be seen and must not end Node-RED.
-    handled.catch((error: unknown) => node.error(error))
-    if (service.waits) service.connection.track(handled.catch(() => undefined))
+    const work = async (): Promise<void> => {
+      const handled = handle(service, message, send, done, () => closed || connection.closed)
+      // What is wrong here is no result of the work, which handle() settles: it must be seen and must not end Node-RED.
+      await handled.catch((error: unknown) => node.error(error))
+    }
+    const settled = entrance === undefined ? work() : enter(service, entrance, message, work, done)
+    if (waits) connection.track(settled)
   })
+}
+
+/** Lets a message in when it is its turn. */
+async function enter(
+  { display, texts }: Service,
+  { ruleOf, busy }: NonNullable<Service['entrance']>,
+  message: NodeMessageInFlow,
+  work: () => Promise<void>,
+  done: Done,
+): Promise<void> {
+  try {
+    await busy.enter(ruleOf(message), { read: work, skip: () => done() })
+  } catch (error) {
+    const failure = failureOf(error, texts)
+    display.failed(failure)
+    done(failure)
+  }
 }
 
 type Send = (message: NodeMessage | (NodeMessage | NodeMessage[] | null)[]) => void
 type Done = (error?: Error) => void
 
 async function handle(
-  { work, display, texts, changesPlc }: Service,
+  { work, connection, display, texts, changesPlc, entrance }: Service,
   message: NodeMessageInFlow,
   send: Send,
   done: Done,
@@ -165,7 +193,7 @@ async function handle(
   if (answer.nothing !== undefined) display.failed(answer.nothing)
   else if (answer.partly !== undefined) display.partly(answer.partly.failed, answer.partly.all)
   else if (answer.unverified === true) display.unverified()
-  else display.succeeded()
+  else display.succeeded(entrance?.busy.load(), () => connection.current?.statistics.roundTrip?.mean)
   const [first, ...more] = answer.messages
   if (first !== undefined) send(more.length === 0 ? first : [[...answer.messages]])
   done()

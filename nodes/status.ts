@@ -1,6 +1,7 @@
 // What a node shows below itself: how the connection is, or why the last message failed.
 import type { Node, NodeStatus } from 'node-red'
 import type { ConnectionState } from '../src/index'
+import type { Load } from './busy'
 import type { ConnectionUser } from './connection'
 import type { FailureCode, NodeFailure } from './failure'
 import type { Texts } from './texts'
@@ -53,6 +54,10 @@ export interface ShownStatus extends NodeStatus {
   readonly endCode?: number
   /** Of the connection, when this was shown. */
   readonly state?: ConnectionState['name']
+  /** Messages that were not read since the node was started, because one before them was under way. */
+  readonly skipped?: number
+  /** Messages that are yet to be read. */
+  readonly waiting?: number
 }
 
 /** Whether what was received is no answer of a PLC. */
@@ -88,11 +93,15 @@ export function endCodeText(endCode: number): string {
   return endCode.toString(16).toUpperCase().padStart(4, '0')
 }
 
+/** So many skipped messages are no moment in which the PLC was slow. */
+const MANY = 10
+
 /** The status of one node; says each thing once. */
 export class Display implements ConnectionUser {
   #state: ConnectionState | undefined
   #shown = '{}'
   #closed = false
+  #warned = false
 
   constructor(
     private readonly node: Node,
@@ -104,8 +113,19 @@ export class Display implements ConnectionUser {
     this.#show(ofState(state, this.texts))
   }
 
-  succeeded(): void {
-    if (this.#state !== undefined) this.#show(ofState(this.#state, this.texts))
+  /**
+   * @param load how the node keeps up with its messages, where it may not
+   * @param roundTrip of a request, in ms
+   */
+  succeeded(load?: Load, roundTrip?: () => number | undefined): void {
+    if (load?.behind === true) {
+      const { skipped } = load
+      this.#show({ fill: 'yellow', shape: 'ring', text: this.texts('status.skipped', { count: skipped }), skipped })
+      this.#warn(skipped, roundTrip?.())
+    } else if (load !== undefined && load.waiting > 0) {
+      const { waiting } = load
+      this.#show({ fill: 'blue', shape: 'ring', text: this.texts('status.waiting', { count: waiting }), waiting })
+    } else if (this.#state !== undefined) this.#show(ofState(this.#state, this.texts))
   }
 
   /** A file is under way. */
@@ -135,6 +155,13 @@ export class Display implements ConnectionUser {
   /** A successor with the same id may be running already: it is its status now. */
   close(): void {
     this.#closed = true
+  }
+
+  /** Says once in full what a status has no room for. */
+  #warn(skipped: number, roundTrip = 0): void {
+    if (this.#warned || skipped < MANY) return
+    this.#warned = true
+    this.node.warn(this.texts('log.skipped', { count: skipped, ms: Math.max(1, Math.round(roundTrip)) }))
   }
 
   #show(shown: ShownStatus): void {
