@@ -1,10 +1,10 @@
 // A decoder that tells where each value stands: rows for traces and the frame decoder, from the same declarations.
 import { hex } from '../basics/hex'
 import { ProtocolError } from '../errors'
-import { asked, type Bag, type Context, countToRead, sizeIn } from './count'
+import { asked, type Context, countToRead, sizeIn } from './count'
 import type { Reader } from './cursor'
 import { type DataCode, readerOf } from './data-code'
-import type { BulkField, Count, CountField, Field, Shape } from './field'
+import type { BulkField, Count, CountField, Field, Message, Shape } from './field'
 import { decode } from './layout'
 
 /** One field of a message, with its bytes. The rows of a message cover every byte exactly once, in order. */
@@ -59,7 +59,7 @@ export interface AnnotateOptions {
 export interface Annotation {
   readonly rows: readonly AnnotatedRow[]
   /** The message as `decode` gives it; with a fault only what stands before it. Secrets are not masked here. */
-  readonly message: Readonly<Record<string, unknown>>
+  readonly message: Message
   /** Bytes that were read. */
   readonly used: number
   /** What a receiver refuses although it can be read, as sentences. */
@@ -78,7 +78,7 @@ export const MASK = '********'
  */
 export function annotate(shape: Shape, bytes: Buffer, options: AnnotateOptions): Annotation {
   const walk = new Walk(bytes, options)
-  const message: Bag = {}
+  const message: MessageSoFar = {}
   try {
     walk.shape(shape, message, '')
     return { rows: walk.rows, message, used: walk.position, notes: walk.notes }
@@ -96,6 +96,9 @@ export function faultOf(error: ProtocolError, base: number): Fault {
   const reason = message.startsWith(place) ? message.slice(place.length) : message
   return { offset: base + offset, message: reason.replace(/\.$/, '') }
 }
+
+/** What has been read of a message. */
+type MessageSoFar = Record<string, unknown>
 
 class Walk {
   readonly rows: AnnotatedRow[] = []
@@ -119,7 +122,7 @@ class Walk {
   }
 
   /** Reads into `message`, so that what was read is there when a later field is wrong. */
-  shape(shape: Shape, message: Bag, path: string): void {
+  shape(shape: Shape, message: MessageSoFar, path: string): void {
     // Derived counts are invisible in the message: they are kept by the name of what they count, as `decode` does.
     const counts: Record<string, number> = {}
     for (const [name, field] of Object.entries(shape)) {
@@ -129,7 +132,7 @@ class Walk {
     }
   }
 
-  #field(name: string, field: Exclude<Field, CountField>, message: Bag, counted: number | undefined): void {
+  #field(name: string, field: Exclude<Field, CountField>, message: MessageSoFar, counted: number | undefined): void {
     const path = this.at
     const count = (of: { readonly count: Count }) =>
       counted ?? countToRead(of.count, name, message, this.#options.context)
@@ -163,22 +166,22 @@ class Walk {
     }
   }
 
-  #list(name: string, field: Extract<Field, { kind: 'list' }>, count: number, message: Bag): void {
+  #list(name: string, field: Extract<Field, { kind: 'list' }>, count: number, message: MessageSoFar): void {
     const path = this.at
-    const elements: Bag[] = []
+    const elements: Message[] = []
     message[name] = elements
     for (let i = 0; i < count; i++) {
-      const element: Bag = {}
+      const element: MessageSoFar = {}
       elements.push(element)
       this.shape(field.item, element, `${path}.${i}.`)
     }
   }
 
-  #each(name: string, of: string, item: BulkField, message: Bag): void {
+  #each(name: string, of: string, item: BulkField, message: MessageSoFar): void {
     const path = this.at
     const parts: unknown[] = []
     message[name] = parts
-    for (const [i, element] of (asked(this.#options.context).message[of] as readonly Bag[]).entries()) {
+    for (const [i, element] of (asked(this.#options.context).message[of] as readonly Message[]).entries()) {
       this.at = `${path}.${i}`
       parts.push(this.#leaf(this.at, { ...item, count: countToRead(item.count, '', element, undefined) }))
     }
@@ -261,11 +264,11 @@ export function hasSecret(shape: Shape): boolean {
 }
 
 /** The message with asterisks in place of its secrets, for logs and events. */
-export function withoutSecrets(shape: Shape, message: Readonly<Record<string, unknown>>): Record<string, unknown> {
+export function withoutSecrets(shape: Shape, message: Message): Record<string, unknown> {
   const entries = Object.entries(message).map(([name, value]): [string, unknown] => {
     const field = shape[name]
     if (field?.kind === 'list' && Array.isArray(value)) {
-      return [name, value.map((item: Readonly<Record<string, unknown>>) => withoutSecrets(field.item, item))]
+      return [name, value.map((item: Message) => withoutSecrets(field.item, item))]
     }
     return [name, field !== undefined && isSecret(field, undefined) ? MASK : value]
   })

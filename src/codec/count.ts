@@ -1,13 +1,11 @@
 // What a count refers to: the one rule that writing, reading and measuring share.
-import type { Count, Shape } from './field'
+import type { Count, Message, Shape } from './field'
 
 /** The request a response answers: `echo`, `each` and counts refer to it. */
 export interface Context {
   readonly shape: Shape
-  readonly message: Readonly<Record<string, unknown>>
+  readonly message: Message
 }
-
-export type Bag = Record<string, unknown>
 
 /** @throws TypeError: it is a mistake of the caller's code, not of a message or of the peer. */
 export function asked(context: Context | undefined): Context {
@@ -25,14 +23,14 @@ export function isArrayLike(given: unknown): given is ArrayLike<unknown> {
  * `own` is the field that is counted: when it has the count's name too, the request's field is meant.
  * `undefined` when neither has it, as for a derived count of the message that is being encoded.
  */
-export function countIn(count: Count, own: string, message: Bag, context: Context | undefined): number | undefined {
+export function countIn(count: Count, own: string, message: Message, context: Context | undefined): number | undefined {
   if (typeof count === 'number') return count
   const here = count === own ? undefined : sizeIn(message[count])
   return here ?? (context === undefined ? undefined : sizeInRequest(count, context))
 }
 
 /** As `countIn`, where the count must be known. */
-export function countToRead(count: Count, own: string, message: Bag, context: Context | undefined): number {
+export function countToRead(count: Count, own: string, message: Message, context: Context | undefined): number {
   const found = countIn(count, own, message, context)
   if (found === undefined) throw new TypeError(`Nothing tells the count ${count}`)
   return found

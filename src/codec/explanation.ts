@@ -1,7 +1,7 @@
 // A frame in words: what the explainers of every protocol build, and how it is printed.
 import { type AnnotatedRow, type AnnotateOptions, annotate, type Fault, showBytes } from './annotate'
 import type { DataCode } from './data-code'
-import type { Shape } from './field'
+import type { Message, Shape } from './field'
 
 /** Which way a frame goes: to the PLC or from it. */
 export type Direction = 'request' | 'response'
@@ -33,11 +33,7 @@ export interface FrameExplanation {
 type Describe = NonNullable<AnnotateOptions['describe']>
 
 /** Makes a row with its bytes into several; `message` is what was read. */
-export type Refine = (
-  row: AnnotatedRow,
-  bytes: Buffer,
-  message: Readonly<Record<string, unknown>>,
-) => readonly AnnotatedRow[]
+export type Refine = (row: AnnotatedRow, bytes: Buffer, message: Message) => readonly AnnotatedRow[]
 
 /** What a frame is said to be, beside its rows. */
 export type About = Omit<FrameExplanation, 'rows' | 'fault' | 'notes' | 'rest'>
@@ -95,7 +91,7 @@ export class Explainer {
     describe: Describe,
     options: Pick<AnnotateOptions, 'form' | 'context'> = {},
     refine: Refine = (row) => [row],
-  ): Readonly<Record<string, unknown>> {
+  ): Message {
     if (this.#fault !== undefined) return {}
     const base = this.#position
     const found = annotate(shape, this.#bytes.subarray(base), { ...options, code: this.code, base, describe })

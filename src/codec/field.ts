@@ -140,6 +140,9 @@ type ValueOf<F extends Field> = F extends { kind: 'u8' | 'u16' | 'u32' }
 
 type Flat<T> = { [K in keyof T]: T[K] }
 
+/** A decoded object, or one to encode, of which only the names of its fields are known. */
+export type Message = Readonly<Record<string, unknown>>
+
 /** The message of a shape as it is decoded: every visible field. */
 export type MessageOf<S extends Shape> = Flat<{ readonly [K in VisibleKey<S>]: ValueOf<S[K]> }>
 

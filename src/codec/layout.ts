@@ -1,6 +1,6 @@
 // The one place that gives a field its meaning, for both directions and both codes.
 import { RequestError } from '../errors'
-import { asked, type Bag, type Context, countIn, countToRead, isArrayLike } from './count'
+import { asked, type Context, countIn, countToRead, isArrayLike } from './count'
 import type { Reader, Writer } from './cursor'
 import {
   type BulkField,
@@ -8,6 +8,7 @@ import {
   type Field,
   type IntegerField,
   isVisible,
+  type Message,
   type MessageInput,
   type MessageOf,
   type Shape,
@@ -24,11 +25,11 @@ export type { Context } from './count'
  * does not have, or derives by itself, is refused too: a misspelt option would otherwise be dropped without a word.
  */
 export function encode<S extends Shape>(shape: S, message: MessageInput<S>, writer: Writer, context?: Context): void {
-  encodeBag(shape, message, writer, context)
+  encodeMessage(shape, message, writer, context)
 }
 
-function encodeBag(shape: Shape, given: unknown, writer: Writer, context: Context | undefined): void {
-  const message = bagToWrite(shape, given)
+function encodeMessage(shape: Shape, given: unknown, writer: Writer, context: Context | undefined): void {
+  const message = messageToWrite(shape, given)
   for (const name in shape) {
     try {
       put(shape[name] as Field, name, message[name], message, writer, context)
@@ -38,11 +39,11 @@ function encodeBag(shape: Shape, given: unknown, writer: Writer, context: Contex
   }
 }
 
-function bagToWrite(shape: Shape, given: unknown): Bag {
+function messageToWrite(shape: Shape, given: unknown): Message {
   if (typeof given !== 'object' || given === null || Array.isArray(given)) {
     bad(`must be an object with ${namesOf(shape)}, is ${show(given)}`)
   }
-  const message = given as Bag
+  const message = given as Message
   for (const name in message) {
     const field = Object.hasOwn(shape, name) ? shape[name] : undefined
     if (message[name] === undefined || (field !== undefined && isVisible(field))) continue
@@ -64,7 +65,7 @@ function put(
   field: Field,
   name: string,
   given: unknown,
-  message: Bag,
+  message: Message,
   writer: Writer,
   context: Context | undefined,
 ): void {
@@ -107,7 +108,7 @@ function put(
       return
     case 'list':
       eachToWrite(listToWrite(field, name, given, message, context), (element) => {
-        encodeBag(field.item, element, writer, context)
+        encodeMessage(field.item, element, writer, context)
       })
       return
     case 'each':
@@ -126,15 +127,15 @@ function putValue(field: Extract<Field, { kind: 'value' }>, given: unknown, writ
 
 function putEcho(of: string, writer: Writer, context: Context | undefined): void {
   const { shape, message } = asked(context)
-  put(shape[of] as Field, of, message[of], message as Bag, writer, undefined)
+  put(shape[of] as Field, of, message[of], message as Message, writer, undefined)
 }
 
 function putEach(of: string, item: BulkField, given: unknown, writer: Writer, context: Context | undefined): void {
-  const elements = asked(context).message[of] as readonly Bag[]
+  const elements = asked(context).message[of] as readonly Message[]
   if (!Array.isArray(given)) bad(`must be an array, is ${show(given)}`)
   if (given.length !== elements.length)
     bad(`has ${given.length} element(s), the request's ${of} has ${elements.length}`)
-  eachToWrite(given as readonly unknown[], (part, i) => put(item, '', part, elements[i] as Bag, writer, undefined))
+  eachToWrite(given as readonly unknown[], (part, i) => put(item, '', part, elements[i] as Message, writer, undefined))
 }
 
 /** Also goes over the holes of an array, which forEach leaves out: they were counted. */
@@ -190,7 +191,7 @@ function arrayToWrite(
   field: BulkField,
   name: string,
   given: unknown,
-  message: Bag,
+  message: Message,
   context: Context | undefined,
 ): ArrayLike<unknown> {
   if (!isArrayLike(given)) bad(`must be an array, is ${show(given)}`)
@@ -220,7 +221,7 @@ function textToWrite(
   field: Extract<Field, { kind: 'text' }>,
   name: string,
   given: unknown,
-  message: Bag,
+  message: Message,
   context: Context | undefined,
 ): string {
   if (typeof given !== 'string') bad(field.secret === true ? 'must be a text' : `must be a text, is ${show(given)}`)
@@ -242,7 +243,7 @@ function listToWrite(
   field: Extract<Field, { kind: 'list' }>,
   name: string,
   given: unknown,
-  message: Bag,
+  message: Message,
   context: Context | undefined,
 ): readonly unknown[] {
   if (!Array.isArray(given)) bad(`must be an array, is ${show(given)}`)
@@ -265,11 +266,11 @@ function show(given: unknown): string {
  * @throws ProtocolError when the bytes are not such a message.
  */
 export function decode<S extends Shape>(shape: S, reader: Reader, context?: Context): MessageOf<S> {
-  return decodeBag(shape, reader, context) as MessageOf<S>
+  return decodeMessage(shape, reader, context) as MessageOf<S>
 }
 
-function decodeBag(shape: Shape, reader: Reader, context: Context | undefined): Bag {
-  const message: Bag = {}
+function decodeMessage(shape: Shape, reader: Reader, context: Context | undefined): Message {
+  const message: Record<string, unknown> = {}
   let counts: Record<string, number> | undefined
   for (const name in shape) {
     const field = shape[name] as Field
@@ -288,7 +289,7 @@ function get(
   field: VisibleField,
   name: string,
   counted: number | undefined,
-  message: Bag,
+  message: Message,
   reader: Reader,
   context: Context | undefined,
 ): unknown {
@@ -312,7 +313,7 @@ function get(
     case 'list':
       return readList(field.item, counted ?? countToRead(field.count, name, message, context), reader, context)
     case 'each':
-      return (asked(context).message[field.of] as readonly Bag[]).map((element) =>
+      return (asked(context).message[field.of] as readonly Message[]).map((element) =>
         get(field.item, '', undefined, element, reader, undefined),
       )
     default:
@@ -369,7 +370,7 @@ function readEcho(of: string, name: string, reader: Reader, context: Context | u
 }
 
 /** What the request said, also where it said it by leaving the field out. */
-function sentIn(field: Field, name: string, message: Readonly<Bag>): unknown {
+function sentIn(field: Field, name: string, message: Message): unknown {
   if (field.kind === 'count') return lengthOf(message[field.of], field.of)
   return message[name] ?? ('default' in field ? field.default : undefined)
 }
@@ -379,7 +380,7 @@ function same(a: unknown, b: unknown): boolean {
   if (a === b) return true
   if (typeof a !== 'object' || typeof b !== 'object' || a === null || b === null) return false
   const names = new Set([...Object.keys(a), ...Object.keys(b)])
-  for (const name of names) if (!same((a as Bag)[name], (b as Bag)[name])) return false
+  for (const name of names) if (!same((a as Message)[name], (b as Message)[name])) return false
   return true
 }
 
@@ -390,8 +391,8 @@ function readText(field: Extract<Field, { kind: 'text' }>, count: number, reader
   return read
 }
 
-function readList(item: Shape, count: number, reader: Reader, context: Context | undefined): Bag[] {
-  const elements: Bag[] = []
-  for (let i = 0; i < count; i++) elements.push(decodeBag(item, reader, context))
+function readList(item: Shape, count: number, reader: Reader, context: Context | undefined): Message[] {
+  const elements: Message[] = []
+  for (let i = 0; i < count; i++) elements.push(decodeMessage(item, reader, context))
   return elements
 }

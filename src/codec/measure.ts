@@ -1,14 +1,14 @@
 // How many bytes a message takes, without writing it.
-import { asked, type Bag, type Context, countToRead, sizeIn } from './count'
+import { asked, type Context, countToRead, sizeIn } from './count'
 import type { ValueCodec } from './cursor'
-import { type BulkField, type Count, type Field, type Shape, WIDTH } from './field'
+import { type BulkField, type Count, type Field, type Message, type Shape, WIDTH } from './field'
 
 /** What is known of a message when its size is asked for. */
 export interface Measured {
   readonly ascii: boolean
   readonly form: number
   /** The message itself, when it is known (a request that is sent, a response that was built). */
-  readonly message?: Readonly<Record<string, unknown>>
+  readonly message?: Message
   /** The request, when a response is measured. */
   readonly context?: Context
 }
@@ -26,7 +26,7 @@ export function measure(shape: Shape, known: Measured): number {
 function span(field: Field, name: string, known: Measured): number {
   const digits = known.ascii ? 2 : 1
   const own = known.message?.[name]
-  const count = (of: Count) => sizeIn(own) ?? countToRead(of, name, (known.message ?? {}) as Bag, known.context)
+  const count = (of: Count) => sizeIn(own) ?? countToRead(of, name, known.message ?? {}, known.context)
   switch (field.kind) {
     case 'u8':
     case 'u16':
@@ -52,7 +52,7 @@ function span(field: Field, name: string, known: Measured): number {
     case 'list':
       return spanOfList(field.item, own, count(field.count), known)
     case 'each':
-      return (asked(known.context).message[field.of] as readonly Bag[]).reduce(
+      return (asked(known.context).message[field.of] as readonly Message[]).reduce(
         (total, element) =>
           total + bulkSize(field.item.kind, countToRead(field.item.count, '', element, undefined), known.ascii),
         0,
@@ -70,7 +70,10 @@ function spanOfEcho(of: string, known: Measured): number {
 function spanOfList(item: Shape, own: unknown, count: number, known: Measured): number {
   const { message: _, ...rest } = known
   if (Array.isArray(own)) {
-    return (own as readonly Bag[]).reduce((total, element) => total + measure(item, { ...rest, message: element }), 0)
+    return (own as readonly Message[]).reduce(
+      (total, element) => total + measure(item, { ...rest, message: element }),
+      0,
+    )
   }
   return count * measure(item, rest)
 }

@@ -2,7 +2,7 @@
 
 import { hex } from '../basics/hex'
 import { type AnnotatedRow, annotate, type Leaf, plainText, showBytes } from '../codec/annotate'
-import { field, type Shape } from '../codec/codec'
+import { field, type Message, type Shape } from '../codec/codec'
 import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../codec/explanation'
 import type { NamedCommand } from '../link/link'
 import { jwCommands } from './commands'
@@ -28,8 +28,6 @@ const responseHead = {
   command: u8(),
   result: u8(),
 } as const satisfies Shape
-
-type Bag = Readonly<Record<string, unknown>>
 
 /**
  * Explains a message of the JW-255CM, also a broken one: then up to where it is wrong. Never throws for what is in the bytes.
@@ -136,7 +134,7 @@ function explainResponse(explainer: Explainer, options: ExplainJwOptions, total:
   return end(explainer, { ...about, title, command: asked.command.name }, total)
 }
 
-function requestIn(frame: Buffer): { readonly command: NamedCommand; readonly message: Bag } | undefined {
+function requestIn(frame: Buffer): { readonly command: NamedCommand; readonly message: Message } | undefined {
   const bytes = frame.subarray(frame[0] === 0 ? HEADER : 0)
   const head = annotate(requestHead, bytes, { code: 'binary' })
   const command = commandOf(head.message.command)

@@ -7,6 +7,7 @@ import {
   type Declaration,
   decode,
   encode,
+  type Message,
   type MessageInput,
   type MessageOf,
   measure,
@@ -22,8 +23,6 @@ import type { Framing, RequestFrame, ResponseFrame } from './framing'
 /** A command with its name. */
 export type NamedCommand = Named<Declaration, string>
 
-type Bag = Readonly<Record<string, unknown>>
-
 const DUMMY = '0'
 
 /** What makes one protocol of this kind different from another. */
@@ -36,9 +35,9 @@ export interface HeadProtocolParts<Head> {
   readonly headOf: (command: NamedCommand) => Head
   readonly codeOf: (head: Head) => number
   /** The message as it goes into the frame. @throws RequestError for what must not be sent. */
-  readonly prepare?: (command: NamedCommand, message: Bag) => Bag
+  readonly prepare?: (command: NamedCommand, message: Message) => Message
   /** Characters `0` behind a request, or behind the data of its answer, that stand for nothing. */
-  readonly dummies?: (command: NamedCommand, request: Bag, side: 'request' | 'response') => number
+  readonly dummies?: (command: NamedCommand, request: Message, side: 'request' | 'response') => number
   /** The error for an end code other than 0. */
   readonly refusal: (command: NamedCommand, frame: ResponseFrame<Head>) => EndCodeError
 }
@@ -101,11 +100,11 @@ export class HeadProtocol<Head> {
     return message
   }
 
-  #dummies(command: NamedCommand, request: Bag, side: 'request' | 'response'): number {
+  #dummies(command: NamedCommand, request: Message, side: 'request' | 'response'): number {
     return this.#parts.dummies?.(command, request, side) ?? 0
   }
 
-  #withDummies(data: Buffer, command: NamedCommand, request: Bag, side: 'request' | 'response'): Buffer {
+  #withDummies(data: Buffer, command: NamedCommand, request: Message, side: 'request' | 'response'): Buffer {
     const count = this.#dummies(command, request, side)
     return count === 0 ? data : Buffer.concat([data, Buffer.from(DUMMY.repeat(count), 'latin1')])
   }
@@ -129,7 +128,7 @@ export class HeadProtocol<Head> {
   }
 
   /** The PLC's side: which command with which message a frame is. */
-  readRequest(frame: RequestFrame<Head>): { command: NamedCommand; message: Readonly<Record<string, unknown>> } {
+  readRequest(frame: RequestFrame<Head>): { command: NamedCommand; message: Message } {
     const command = this.#commandOf(frame.head)
     const reader = readerOf(this.#parts.code, frame.body, this.#parts.form)
     const message = decode(command.request, reader)
@@ -138,11 +137,7 @@ export class HeadProtocol<Head> {
   }
 
   /** The PLC's side: the data of the answer to `message`. */
-  writeResponse(
-    command: NamedCommand,
-    message: Readonly<Record<string, unknown>>,
-    response: Readonly<Record<string, unknown>>,
-  ): Buffer {
+  writeResponse(command: NamedCommand, message: Message, response: Message): Buffer {
     const writer = writerOf(this.#parts.code, this.#parts.form)
     encode(command.response, response, writer, { shape: command.request, message })
     return this.#withDummies(writer.take(), command, message, 'response')

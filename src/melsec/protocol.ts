@@ -1,7 +1,17 @@
 // The SLMP command set in a frame: encodes requests and reads answers, and the same from the PLC's side.
 // The frames differ in their head, and in what stands around the data (BodyLayout): one class serves all of them.
 import { hex } from '../basics/hex'
-import { type Context, type DataCode, decode, encode, measure, type Reader, readerOf, writerOf } from '../codec/codec'
+import {
+  type Context,
+  type DataCode,
+  decode,
+  encode,
+  type Message,
+  measure,
+  type Reader,
+  readerOf,
+  writerOf,
+} from '../codec/codec'
 import { EndCodeError, ProtocolError, RequestError } from '../errors'
 import type { Exchange, Framing, RequestFrame, ResponseFrame } from '../link/link'
 import type { Command, RequestOf, ResponseOf } from './commands/command'
@@ -16,8 +26,6 @@ import { type BodyLayout, commandFields, type ErrorInformation, plainBody } from
 import { describeRoute } from './frame/route'
 import type { Profile } from './profiles/profile'
 import { checkTarget } from './target'
-
-type Bag = Readonly<Record<string, unknown>>
 
 export interface MelsecProtocolOptions<Head> {
   /** `body`: what stands around the data; default as in 3E and 4E. */
@@ -50,7 +58,7 @@ export interface ExchangeOptions {
   /** File commands: use this subcommand instead of the profile's usual one, e.g. 0x0004. */
   readonly subcommand?: number
   /** The request a response refers to, when it is another's: the registration, for Execute Monitor. */
-  readonly context?: Bag
+  readonly context?: Message
 }
 
 /** A request as the PLC's side reads it. */
@@ -59,7 +67,7 @@ export interface ReceivedRequest {
   readonly name: CommandName
   readonly form: DeviceForm
   readonly subcommand: number
-  readonly message: Bag
+  readonly message: Message
 }
 
 /** A request that names a command or subcommand nobody declared. */
@@ -133,7 +141,7 @@ export class MelsecProtocol<Head> {
     message: RequestOf<C>,
     options: ExchangeOptions = {},
   ): Exchange<Head, ResponseOf<C>> {
-    const bag: Bag = message
+    const bag: Message = message
     const form = this.#formOf(command, bag, options)
     checkLimits(this.profile, command.name as CommandName, form, this.code, bag)
     const subcommand = subcommandOf(command, form, this.profile, options.subcommand)
@@ -145,7 +153,7 @@ export class MelsecProtocol<Head> {
     encode(command.request, bag, writer)
     const body = writer.take()
     // What was sent counts, not an object that the caller may change before the answer comes.
-    const sent: Bag = decode(command.request, readerOf(this.code, body.subarray(this.dataAt), bits))
+    const sent: Message = decode(command.request, readerOf(this.code, body.subarray(this.dataAt), bits))
     checkTarget(this.profile, command, sent, this.#moduleIo)
     const context = this.#contextOf(command, sent, options)
     return {
@@ -160,7 +168,7 @@ export class MelsecProtocol<Head> {
     }
   }
 
-  #formOf(command: Command, message: Bag, options: ExchangeOptions): DeviceForm {
+  #formOf(command: Command, message: Message, options: ExchangeOptions): DeviceForm {
     const found = devicesOf(command, message)
     if (this.#unknownDigits.length > 0) this.#refuseUnknownDigits(found.map(({ address }) => address.device))
     return chooseForm(this.profile, command, found, this.code, this.#digitBits, options.form)
@@ -173,7 +181,7 @@ export class MelsecProtocol<Head> {
     }
   }
 
-  #contextOf(command: Command, message: Bag, options: ExchangeOptions): Context {
+  #contextOf(command: Command, message: Message, options: ExchangeOptions): Context {
     if (command.context === undefined) return { shape: command.request, message }
     if (options.context === undefined) {
       throw new RequestError(
@@ -274,8 +282,8 @@ export class MelsecProtocol<Head> {
   /** The PLC's side: the data of the answer. `context` is the request, or for Execute Monitor the registration. */
   writeResponse<C extends Command>(
     request: ReceivedRequest & { command: C },
-    response: Bag,
-    context: Bag = request.message,
+    response: Message,
+    context: Message = request.message,
   ): Buffer {
     const { command, form, subcommand } = request
     const writer = writerOf(this.code, codecBits(command, form, subcommand) | this.#digitBits)

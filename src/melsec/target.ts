@@ -1,5 +1,7 @@
 // Targets of commands, and drives of file commands, against the profile, before anything is sent.
+
 import { hex } from '../basics/hex'
+import type { Message } from '../codec/codec'
 import { RequestError } from '../errors'
 import type { Command } from './commands/command'
 import { driveNumber } from './file/codec'
@@ -10,12 +12,7 @@ import type { Profile } from './profiles/profile'
  * @param moduleIo of the route, where the frame has one
  * @throws RequestError UNSUPPORTED naming the field and what there is.
  */
-export function checkTarget(
-  profile: Profile,
-  command: Command,
-  message: Readonly<Record<string, unknown>>,
-  moduleIo: number | undefined,
-): void {
+export function checkTarget(profile: Profile, command: Command, message: Message, moduleIo: number | undefined): void {
   if (command.controlCpuOnly === true) checkControlCpu(profile, command, moduleIo)
   if (command.subcommands === undefined) return
   checkModuleIo(profile, command, moduleIo)
@@ -47,7 +44,7 @@ function checkModuleIo({ files, title: family }: Profile, { title }: Command, mo
  * Refuses a drive that this family does not have (SLMP reference manual 5.8, Drive number).
  * @throws RequestError UNSUPPORTED naming the field and the drives there are.
  */
-function checkDrives(profile: Profile, command: Command, message: Readonly<Record<string, unknown>>): void {
+function checkDrives(profile: Profile, command: Command, message: Message): void {
   if (profile.files.drives.length === 0) return
   for (const [name, field] of Object.entries(command.request)) {
     if (field.kind !== 'value' || field.codec !== driveNumber) continue

@@ -2,7 +2,7 @@
  * The 1E frame on a port: its requests in the terms of the handlers, their answers in its own. What the FX5 manual does
  * not say about refusals is background: the troubleshooting chapter of the FX3U-ENET-ADP user's manual.
  */
-import { type DataCode, writerOf } from '../codec/codec'
+import { type DataCode, type Message, writerOf } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { HeadProtocol, NamedCommand, RequestFrame } from '../link/link'
 import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-compatible/commands'
@@ -23,8 +23,6 @@ import { type Head1e, mayEndWithZero, zeroBehind } from '../melsec/frame/frame-1
 import type { Profile } from '../melsec/profiles/profile'
 import { Refusal } from './refusal'
 
-type Bag = Readonly<Record<string, unknown>>
-
 /** End codes of 1E. */
 const END = { command: 0x50, asciiConversion: 0x54, device: 0x56, points: 0x57, head: 0x58, cpu: 0x5b } as const
 /** Abnormal codes behind end code 5B. */
@@ -42,9 +40,9 @@ const CONNECTED_STATION = 0xff
 /** A 1E request as the handlers take it. */
 export interface Translated {
   readonly name: CommandName
-  readonly message: Bag
+  readonly message: Message
   /** The data of the answer. */
-  readonly respond: (response: Bag) => Buffer
+  readonly respond: (response: Message) => Buffer
 }
 
 export interface ACompatiblePortOptions {
@@ -100,7 +98,7 @@ export class ACompatiblePort {
     return hasZero ? Buffer.concat([body, zeroBehind[this.#code]]) : body
   }
 
-  #request(frame: RequestFrame<Head1e>): { readonly command: NamedCommand; readonly message: Bag } {
+  #request(frame: RequestFrame<Head1e>): { readonly command: NamedCommand; readonly message: Message } {
     const known = Object.values<NamedCommand>(aCompatibleCommands).some(({ code }) => code === frame.head.command)
     if (!known) throw new Refusal(END.command, `there is no command ${frame.head.command} in 1E`)
     try {
@@ -118,7 +116,7 @@ export class ACompatiblePort {
     return body.length > 0 && /device code/.test(error.message) ? END.device : END.points
   }
 
-  #translated(name: ACompatibleCommandName, message: Bag): Bag {
+  #translated(name: ACompatibleCommandName, message: Message): Message {
     switch (name) {
       case 'readBits':
       case 'readWords':
@@ -144,7 +142,7 @@ export class ACompatiblePort {
     }
   }
 
-  #list(name: ACompatibleCommandName, elements: unknown): readonly Bag[] {
+  #list(name: ACompatibleCommandName, elements: unknown): readonly Message[] {
     // The shape of the declaration: decoded by it.
     const list = elements as readonly { readonly device: DeviceAddress }[]
     const max = aCompatibleLimit(name, 'M') ?? 0

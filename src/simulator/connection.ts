@@ -1,7 +1,7 @@
 // One client of the simulated PLC: its requests in order, and its answers through the fault switches onto the wire.
 
 import { withoutSecrets } from '../codec/annotate'
-import type { Effect } from '../codec/codec'
+import type { Effect, Message } from '../codec/codec'
 import { type Framing, Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'
@@ -32,7 +32,7 @@ export interface RequestEvent {
   readonly command: CommandName | undefined
   readonly effect: Effect | undefined
   /** The request as decoded; passwords are asterisks. */
-  readonly message: Readonly<Record<string, unknown>> | undefined
+  readonly message: Message | undefined
   /** 0 success; undefined when there is no answer. */
   readonly endCode: number | undefined
 }

@@ -1,5 +1,5 @@
 // A request as it arrived: which command it is, what it says, or why it cannot be read.
-import { decode, type Reader, readerOf, type Shape, type ValueCodec } from '../codec/codec'
+import { decode, type Message, type Reader, readerOf, type Shape, type ValueCodec } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { RequestFrame } from '../link/link'
 import { type CommandName, commands } from '../melsec/commands/commands'
@@ -23,7 +23,7 @@ export interface Received {
   /** The request, or why there is none. */
   readonly request: ReceivedRequest | Refusal
   /** 1E: writes the data of the answer. */
-  readonly respond?: (response: Readonly<Record<string, unknown>>) => Buffer
+  readonly respond?: (response: Message) => Buffer
 }
 
 /** The protocols of a port. */

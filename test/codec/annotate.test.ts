@@ -8,6 +8,7 @@ import {
   decode,
   encode,
   field,
+  type Message,
   readerOf,
   type Shape,
   writerOf,
@@ -18,8 +19,6 @@ import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { commands } from '../../src/melsec/commands/commands'
 import { FORM_EXTENDED, FORM_LONG } from '../../src/melsec/device/codec'
 import { messageOf } from './arbitrary-message'
-
-type Bag = Readonly<Record<string, unknown>>
 
 /** Every declaration of this package with the forms and codes it is sent in. */
 const families: readonly {
@@ -64,7 +63,7 @@ function encoded(side: 'request' | 'response', { declaration, asked, code, forms
 
 /** The value at a path such as `words.0.device`. */
 function at(message: unknown, path: string): unknown {
-  return path.split('.').reduce((value, name) => (value as Bag | undefined)?.[name], message)
+  return path.split('.').reduce((value, name) => (value as Message | undefined)?.[name], message)
 }
 
 /** Where the rows leave a gap or overlap, or do not end at `length`; `undefined` when they cover it exactly. */

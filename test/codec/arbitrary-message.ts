@@ -1,6 +1,6 @@
 /** Messages of any declaration, made from its shapes: what the property tests run over. */
 import fc from 'fast-check'
-import type { Context, Shape } from '../../src/codec/codec'
+import type { Context, Message, Shape } from '../../src/codec/codec'
 import { isVisible, type VisibleField } from '../../src/codec/field'
 import { jwAddress } from '../../src/jw/operand'
 import { aCompatibleDevice } from '../../src/melsec/a-compatible/device'
@@ -9,7 +9,6 @@ import { setReset } from '../../src/melsec/device/set-reset'
 import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label/codec'
 import { fileValues } from '../support/arbitrary-file'
 
-type Bag = Record<string, unknown>
 type Generate = fc.GeneratorValue
 
 const number = fc.integer({ min: 0, max: 0x7fff })
@@ -54,8 +53,8 @@ const CHARACTERS = { any: 'Az09 -é', printable: 'Az09 -~', hexDigits: '01234567
 const MOST = 20
 
 /** A message of `shape`; a response's with the request it answers. */
-export function messageOf(shape: Shape, generate: Generate, context?: Context): Bag {
-  const message: Bag = {}
+export function messageOf(shape: Shape, generate: Generate, context?: Context): Message {
+  const message: Record<string, unknown> = {}
   for (const [name, field] of Object.entries(shape)) {
     if (!isVisible(field)) continue
     message[name] = valueFor(name, field, shape, message, generate, context)
@@ -67,7 +66,7 @@ function valueFor(
   name: string,
   field: VisibleField,
   shape: Shape,
-  message: Bag,
+  message: Message,
   generate: Generate,
   context: Context | undefined,
 ): unknown {
@@ -101,7 +100,7 @@ function valueFor(
     case 'list':
       return Array.from({ length: size() }, () => messageOf(field.item, generate, context))
     case 'each': {
-      const elements = context?.message[field.of] as readonly Bag[]
+      const elements = context?.message[field.of] as readonly Message[]
       return elements.map((element) => valueFor('', field.item, {}, element, generate, undefined))
     }
     default:
@@ -117,7 +116,7 @@ function sizeOf(
   name: string,
   count: number | string,
   shape: Shape,
-  message: Bag,
+  message: Message,
   generate: Generate,
   context: Context | undefined,
 ): number {

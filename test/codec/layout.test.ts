@@ -2,9 +2,18 @@
 import { isDeepStrictEqual } from 'node:util'
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { type Context, decode, encode, measure, readerOf, type Shape, writerOf } from '../../src/codec/codec'
+import {
+  type Context,
+  decode,
+  encode,
+  type Message,
+  measure,
+  readerOf,
+  type Shape,
+  writerOf,
+} from '../../src/codec/codec'
 import { ProtocolError, RequestError } from '../../src/errors'
-import { arbitrary, type Bag, type Wanted } from '../support/arbitrary'
+import { arbitrary, type Wanted } from '../support/arbitrary'
 import { fileCodecs } from '../support/arbitrary-file'
 import { type DeclarationCase, declarationCases } from '../support/declarations'
 
@@ -12,7 +21,7 @@ import { type DeclarationCase, declarationCases } from '../support/declarations'
 interface Written {
   readonly shape: Shape
   readonly form: number
-  readonly message: Bag
+  readonly message: Message
   readonly context: Context | undefined
 }
 
@@ -52,7 +61,7 @@ function messageOf({ code }: DeclarationCase, { shape, form, context }: Written,
   return message
 }
 
-function measured({ code }: DeclarationCase, { shape, form, context }: Written, message?: Bag): number {
+function measured({ code }: DeclarationCase, { shape, form, context }: Written, message?: Message): number {
   return measure(shape, {
     ascii: code === 'ascii',
     form,
@@ -89,7 +98,7 @@ describe.each(declarationCases)('$title', (declared) => {
         fc.property(damaged, ({ given, bytes }) => {
           try {
             // What can be read can be written, and is the same message then: no two meanings for the same bytes.
-            const message = messageOf(declared, given, bytes) as Bag
+            const message = messageOf(declared, given, bytes) as Message
             const again = bytesOf(declared, { ...given, message })
             same(messageOf(declared, given, again), message)
           } catch (error) {

@@ -1,6 +1,6 @@
 /** Right requests with right answers, of every declared command in every form: what the damage starts from. */
 import fc from 'fast-check'
-import type { DataCode, Shape } from '../../src/codec/codec'
+import type { DataCode, Message, Shape } from '../../src/codec/codec'
 import { RequestError } from '../../src/errors'
 import type { Exchange, HeadProtocol, NamedCommand } from '../../src/link/link'
 import type { Command } from '../../src/melsec/commands/command'
@@ -8,7 +8,7 @@ import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import type { DeviceForm } from '../../src/melsec/device/device-form'
 import { FORM_BITS, subcommandOf } from '../../src/melsec/device/form'
 import type { MelsecProtocol } from '../../src/melsec/protocol'
-import { arbitrary, type Bag } from '../support/arbitrary'
+import { arbitrary } from '../support/arbitrary'
 
 export interface Sample<Head> {
   readonly command: string
@@ -23,10 +23,10 @@ const MADE = 24
 const KEPT = 3
 
 /** Made once for all frames that have the same messages: making them takes most of the time. */
-const made = new WeakMap<Shape, Map<string, readonly Bag[]>>()
+const made = new WeakMap<Shape, Map<string, readonly Message[]>>()
 
-function messagesOf(shape: Shape, ascii: boolean, form: number): readonly Bag[] {
-  const lists = made.get(shape) ?? new Map<string, readonly Bag[]>()
+function messagesOf(shape: Shape, ascii: boolean, form: number): readonly Message[] {
+  const lists = made.get(shape) ?? new Map<string, readonly Message[]>()
   made.set(shape, lists)
   const key = `${ascii} ${form}`
   const list = lists.get(key) ?? fc.sample(arbitrary(shape, { ascii, form }), { numRuns: MADE, seed: 1 })
@@ -34,7 +34,7 @@ function messagesOf(shape: Shape, ascii: boolean, form: number): readonly Bag[] 
   return list
 }
 
-function answerTo(response: Shape, asked: Shape, message: Bag, ascii: boolean, form: number): Bag {
+function answerTo(response: Shape, asked: Shape, message: Message, ascii: boolean, form: number): Message {
   const wanted = { ascii, form, context: { shape: asked, message } }
   const [made] = fc.sample(arbitrary(response, wanted), { numRuns: 1, seed: 2 })
   if (made === undefined) throw new Error('no answer was made')
@@ -42,7 +42,7 @@ function answerTo(response: Shape, asked: Shape, message: Bag, ascii: boolean, f
 }
 
 /** Those of `make` that the protocol sends: what it refuses before sending is no frame. */
-function* sendable<T>(messages: readonly Bag[], make: (message: Bag) => T): Generator<T> {
+function* sendable<T>(messages: readonly Message[], make: (message: Message) => T): Generator<T> {
   let kept = 0
   for (const message of messages) {
     try {
@@ -84,7 +84,7 @@ function samplesIn<Head>(protocol: MelsecProtocol<Head>, command: Command, form:
 }
 
 /** The same message with device numbers that every device has: 1E takes few others. */
-function nearby(message: Bag): Bag {
+function nearby(message: Message): Message {
   const entries = Object.entries(message).map(([name, part]): [string, unknown] => [
     name,
     name === 'number' && typeof part === 'number' ? (part % 8) * 16 : nearbyIn(part),

@@ -2,7 +2,9 @@
  * The ground carries more than SLMP: client session and responder joined in memory, with the time as a number, for
  * 3E and 4E, 4C format 5 (byte stuffing, sum check), 1E (no length in the answer) and Sharp JW (another vendor).
  */
+
 import { describe, expect, test } from '@jest/globals'
+import type { Message } from '../../src/codec/codec'
 import { EndCodeError, type PlcError, ProtocolError } from '../../src/errors'
 import { jwCommands } from '../../src/jw/commands'
 import type { JwAddress } from '../../src/jw/operand'
@@ -16,7 +18,6 @@ import { MelsecProtocol } from '../../src/melsec/protocol'
 import { type Answer, Line, type Plc, type Wire } from './line'
 import { HEAD, slmpFrames } from './support'
 
-type Bag = Readonly<Record<string, unknown>>
 const D = (number: number) => ({ device: 'D', number }) as const
 
 /** A PLC with the words D0 to D9999 that knows Read and Write in word units. */
@@ -240,7 +241,7 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
           const bytes = segmentOf(head)
           const { address } = head
           if (address + (data?.length ?? length) > bytes.length) return { endCode: 0x0d, body: Buffer.alloc(0) }
-          const response: Bag = data === undefined ? { data: bytes.subarray(address, address + length) } : {}
+          const response: Message = data === undefined ? { data: bytes.subarray(address, address + length) } : {}
           if (data !== undefined) bytes.set(data, address)
           return { endCode: 0, body: jw.writeResponse(command, message, response) }
         },

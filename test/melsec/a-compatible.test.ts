@@ -1,6 +1,6 @@
 /** The command set of the 1E frame: what a request may say, what goes into the frame, and what an answer is read as. */
 import { describe, expect, test } from '@jest/globals'
-import type { Declaration, Named } from '../../src/codec/codec'
+import type { Declaration, Message, Named } from '../../src/codec/codec'
 import { RequestError } from '../../src/errors'
 import { type ACompatibleCommandName, aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { type ACompatibleOptions, aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
@@ -15,19 +15,21 @@ import {
 import { type DeviceName, deviceInfo } from '../../src/melsec/device/device'
 import { bytesOf, vectorsOfKind } from '../vectors/vectors'
 
-type Bag = Readonly<Record<string, unknown>>
-
 function command(name: string): Named<Declaration, string> {
   const found = Object.values<Named<Declaration, string>>(aCompatibleCommands).find((entry) => entry.name === name)
   if (found === undefined) throw new Error(`no command ${name}`)
   return found
 }
 
-function exchange(name: string, message: Bag, options: Partial<ACompatibleOptions> = {}) {
+function exchange(name: string, message: Message, options: Partial<ACompatibleOptions> = {}) {
   return aCompatibleProtocol({ code: 'binary', ...options }).exchange(command(name), message)
 }
 
-function refused(name: ACompatibleCommandName, message: Bag, options: Partial<ACompatibleOptions> = {}): RequestError {
+function refused(
+  name: ACompatibleCommandName,
+  message: Message,
+  options: Partial<ACompatibleOptions> = {},
+): RequestError {
   try {
     exchange(name, message, options)
   } catch (error) {

@@ -1,7 +1,7 @@
 /** The simulated iQ-F as a 1E client sees it: in memory, over loopback TCP and UDP, in both codes. */
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import type { Declaration, Named } from '../../src/codec/codec'
+import type { Declaration, Message, Named } from '../../src/codec/codec'
 import { EndCodeError } from '../../src/errors'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { type ACompatibleOptions, aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
@@ -11,7 +11,6 @@ import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from 
 import { manualClock } from '../../src/transport/clock'
 import { readD, withClient, word } from './wire'
 
-type Bag = Readonly<Record<string, unknown>>
 type Code = 'binary' | 'ascii'
 const CODES = ['binary', 'ascii'] as const
 const at = (device: DeviceName, number: number) => ({ device, number })
@@ -39,7 +38,7 @@ function commandOf(name: string): Named<Declaration, string> {
 /** Asks as a client does; throws what the client would throw. */
 function asker(plc: PlcSimulator, options: ACompatibleOptions) {
   const protocol = aCompatibleProtocol({ asciiXy: 'octal', oddBits: 'exact', ...options })
-  return (name: string, message: Bag = {}): Bag => {
+  return (name: string, message: Message = {}): Message => {
     const asked = protocol.exchange(commandOf(name), message)
     const answer = exchangeBytes(plc, protocol.framing.request.write(asked.head, 0, asked.body))
     const scanned = protocol.framing.response.scan(answer, asked.responseLength)

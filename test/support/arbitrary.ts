@@ -1,6 +1,6 @@
 /** Messages of any declaration, made from its shapes: what the property tests run over. */
 import fc from 'fast-check'
-import type { Context, Field, Shape } from '../../src/codec/codec'
+import type { Context, Field, Message, Shape } from '../../src/codec/codec'
 import { isVisible, type VisibleField } from '../../src/codec/field'
 import { jwAddress } from '../../src/jw/operand'
 import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible/device'
@@ -10,8 +10,6 @@ import { setReset } from '../../src/melsec/device/set-reset'
 import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label/codec'
 import { anyAddress } from '../melsec/device-bytes'
 import { fileCodecs, fileValues } from './arbitrary-file'
-
-export type Bag = Record<string, unknown>
 
 /** How the message is going to be written: not every value can be said in every code and form. */
 export interface Wanted {
@@ -99,7 +97,7 @@ function sizes(min: number, max: number): fc.Arbitrary<number> {
 const MADE = 8
 
 /** Any message of `shape` that can be written as wanted. */
-export function arbitrary(shape: Shape, wanted: Wanted): fc.Arbitrary<Bag> {
+export function arbitrary(shape: Shape, wanted: Wanted): fc.Arbitrary<Message> {
   const values = valuesOf(shape, wanted)
   return fc.gen().map((generate) => new Maker(generate, values, wanted.context).message(shape))
 }
@@ -124,8 +122,8 @@ class Maker {
     private readonly context: Context | undefined,
   ) {}
 
-  message(shape: Shape): Bag {
-    const message: Bag = {}
+  message(shape: Shape): Message {
+    const message: Record<string, unknown> = {}
     for (const [name, field] of Object.entries(shape)) {
       if (!isVisible(field)) continue
       message[name] = this.value(name, field, shape, message)
@@ -133,7 +131,7 @@ class Maker {
     return message
   }
 
-  private value(name: string, field: VisibleField, shape: Shape, message: Bag): unknown {
+  private value(name: string, field: VisibleField, shape: Shape, message: Message): unknown {
     switch (field.kind) {
       case 'u8':
       case 'u16':
@@ -154,7 +152,7 @@ class Maker {
       case 'list':
         return repeated(this.size(name, field.count, shape, message), () => this.message(field.item))
       case 'each': {
-        const asked = this.context?.message[field.of] as readonly Bag[]
+        const asked = this.context?.message[field.of] as readonly Message[]
         return asked.map((element) => this.value('', field.item, {}, element))
       }
       default:
@@ -177,7 +175,7 @@ class Maker {
     return repeated(length, () => this.generate(() => element))
   }
 
-  private size(name: string, count: number | string, shape: Shape, message: Bag): number {
+  private size(name: string, count: number | string, shape: Shape, message: Message): number {
     if (typeof count === 'number') return count
     const derived = Object.values(shape).find((field) => field.kind === 'count' && field.of === name)
     if (derived?.kind === 'count') {

@@ -1,5 +1,5 @@
 import { hex } from '../../basics/hex'
-import { type DataCode, readerOf } from '../../codec/codec'
+import { type DataCode, type Message, readerOf } from '../../codec/codec'
 import { EndCodeError, RequestError } from '../../errors'
 import { HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/link'
 import { checkAddress } from '../device/access'
@@ -32,8 +32,6 @@ export interface ACompatibleOptions {
   readonly oddBits?: OddBits | undefined
 }
 
-type Bag = Readonly<Record<string, unknown>>
-
 /**
  * The 1E frame with its command set. Devices are given by the PLC's own names: SM8000 goes out as M8000, LCN0 as CN200.
  * @example aCompatibleProtocol({ code: 'binary' }).exchange(aCompatibleCommands.readWords, { head, points: 3 })
@@ -59,12 +57,12 @@ export function aCompatibleProtocol(options: ACompatibleOptions): HeadProtocol<H
 }
 
 /** Whether an odd number of bits stands in the request, or in its answer. */
-function isOdd({ name }: NamedCommand, { points, values }: Bag, side?: 'request' | 'response'): boolean {
+function isOdd({ name }: NamedCommand, { points, values }: Message, side?: 'request' | 'response'): boolean {
   if (name === 'readBits' && side !== 'request') return typeof points === 'number' && points % 2 === 1
   return name === 'writeBits' && side !== 'response' && (sizeOf(values) ?? 0) % 2 === 1
 }
 
-function checkAscii(command: NamedCommand, message: Bag, asciiXy: unknown, oddBits: unknown): void {
+function checkAscii(command: NamedCommand, message: Message, asciiXy: unknown, oddBits: unknown): void {
   if (oddBits === undefined && isOdd(command, message)) {
     throw new RequestError(
       'BAD_OPTION',
@@ -83,7 +81,7 @@ function checkAscii(command: NamedCommand, message: Bag, asciiXy: unknown, oddBi
 }
 
 /** The message with the devices under their names in the frame. What is no message at all is left to the encoder. */
-function prepared(family: ACompatibleFamily, command: ACompatibleCommandName, message: Bag): Bag {
+function prepared(family: ACompatibleFamily, command: ACompatibleCommandName, message: Message): Message {
   const { windows } = family
   const moved = (address: DeviceAddress, points: number, path: string): DeviceAddress => {
     checkPlain(address, path)
@@ -103,7 +101,7 @@ function prepared(family: ACompatibleFamily, command: ACompatibleCommandName, me
   return {
     ...message,
     [list]: devices.map((element, i) =>
-      isBag(element) && isAddress(element.device)
+      isMessage(element) && isAddress(element.device)
         ? { ...element, device: moved(element.device, 1, `${list}.${i}.device`) }
         : element,
     ),
@@ -126,18 +124,18 @@ function checkCount(command: ACompatibleCommandName, list: string, devices: read
 }
 
 /** The devices of a request. */
-export function addressesOf(message: Bag): readonly DeviceAddress[] {
+export function addressesOf(message: Message): readonly DeviceAddress[] {
   const holders = [message.bits, message.words].flatMap((list): unknown[] => (Array.isArray(list) ? list : []))
-  const devices = holders.map((element) => (isBag(element) ? element.device : undefined))
+  const devices = holders.map((element) => (isMessage(element) ? element.device : undefined))
   return [message.head, ...devices].filter(isAddress)
 }
 
-function isBag(value: unknown): value is Bag {
+function isMessage(value: unknown): value is Message {
   return typeof value === 'object' && value !== null
 }
 
 function isAddress(value: unknown): value is DeviceAddress {
-  return isBag(value) && typeof value.device === 'string'
+  return isMessage(value) && typeof value.device === 'string'
 }
 
 function sizeOf(value: unknown): number | undefined {

@@ -2,7 +2,7 @@
  * Requests of the SLMP set in 1E frames, for a client: the ones that 1E can say, said in its way. What it cannot say is
  * in the profile as lacking, so that the planner goes without it.
  */
-import { decode, encode, readerOf, writerOf } from '../../codec/codec'
+import { decode, encode, type Message, readerOf, writerOf } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { Exchange, Framing, HeadProtocol, NamedCommand } from '../../link/link'
 import type { Command, RequestOf, ResponseOf } from '../commands/command'
@@ -19,20 +19,18 @@ import { isOver1e, over1e } from './names'
 import { type ACompatibleOptions, aCompatibleProtocol } from './protocol'
 import { type ACompatibleFamily, type ACompatibleWindow, windowOf } from './rules'
 
-type Bag = Readonly<Record<string, unknown>>
-
 const NO_NAME = ''
 const NAME_LENGTH = 16
 
 /** A request of 1E and what of its answer is wanted. */
 interface Said {
   readonly command: NamedCommand
-  readonly message: Bag
-  readonly answer: (message: Bag) => Bag
+  readonly message: Message
+  readonly answer: (message: Message) => Message
 }
 
-const asItIs = (message: Bag): Bag => message
-const nothing = (): Bag => ({})
+const asItIs = (message: Message): Message => message
+const nothing = (): Message => ({})
 
 export interface SlmpOver1eOptions extends Pick<ACompatibleOptions, 'code' | 'asciiXy' | 'timer'> {
   readonly profile: Profile
@@ -83,7 +81,7 @@ class SlmpOver1e implements ClientProtocol<Head3e> {
     message: RequestOf<C>,
     options: ExchangeOptions = {},
   ): Exchange<Head3e, ResponseOf<C>> {
-    const given: Bag = message
+    const given: Message = message
     this.#check(command, options)
     const said = this.#said(command.name, given)
     const asked = this.#protocol.exchange(said.command, said.message)
@@ -113,7 +111,7 @@ class SlmpOver1e implements ClientProtocol<Head3e> {
     }
   }
 
-  #said(name: string, message: Bag): Said {
+  #said(name: string, message: Message): Said {
     if (!isOver1e(name)) throw new RequestError('UNSUPPORTED', `A 1E frame has no command ${name}.`, name)
     const command: NamedCommand = aCompatibleCommands[over1e[name]]
     switch (name) {
@@ -144,7 +142,7 @@ class SlmpOver1e implements ClientProtocol<Head3e> {
     return this.code === 'ascii' && this.#family.oddBits === undefined && count % 2 === 1
   }
 
-  #evenBits(command: NamedCommand, message: Bag): Said {
+  #evenBits(command: NamedCommand, message: Message): Said {
     const { head, points } = message
     const window = isAddress(head) ? windowOf(this.#family.windows, head) : undefined
     if (typeof points !== 'number' || !this.#avoidsOdd(points) || window === undefined || !isAddress(head)) {
@@ -161,7 +159,7 @@ class SlmpOver1e implements ClientProtocol<Head3e> {
   }
 
   /** One by one instead, which needs no dummy and writes the same. */
-  #writtenBits(command: NamedCommand, message: Bag): Said {
+  #writtenBits(command: NamedCommand, message: Message): Said {
     const { head, values } = message
     if (!isAddress(head) || !Array.isArray(values) || !this.#avoidsOdd(values.length)) {
       return { command, message, answer: nothing }
@@ -176,7 +174,7 @@ function endOf({ number, points }: ACompatibleWindow): number {
 }
 
 /** The answer as the command of the SLMP set declares it. */
-function answered<C extends Command>(command: C, request: Bag, answer: Bag): ResponseOf<C> {
+function answered<C extends Command>(command: C, request: Message, answer: Message): ResponseOf<C> {
   const context = { shape: command.request, message: request }
   const writer = writerOf('binary')
   encode(command.response, answer, writer, context)
@@ -184,11 +182,11 @@ function answered<C extends Command>(command: C, request: Bag, answer: Bag): Res
 }
 
 /** 1E tells no name. The code fits none of the SLMP set, so that nobody takes it for one of its models. */
-function typeName(typeCode: unknown): Bag {
+function typeName(typeCode: unknown): Message {
   return { model: NO_NAME.padEnd(NAME_LENGTH), modelCode: typeCode }
 }
 
-function runOf({ mode, clearMode = 0 }: Bag): Bag {
+function runOf({ mode, clearMode = 0 }: Message): Message {
   if (mode !== 1) {
     throw new RequestError('UNSUPPORTED', 'A 1E frame cannot force RUN: leave force out, or use a 3E frame.', 'mode')
   }
@@ -199,13 +197,13 @@ function runOf({ mode, clearMode = 0 }: Bag): Bag {
 }
 
 /** Double words as two words each: one request is carried out in one step all the same. */
-function wordsOf({ words, doubleWords }: Bag): readonly Bag[] {
-  const single = Array.isArray(words) ? (words as readonly Bag[]) : []
-  const pairs = Array.isArray(doubleWords) ? (doubleWords as readonly Bag[]) : []
+function wordsOf({ words, doubleWords }: Message): readonly Message[] {
+  const single = Array.isArray(words) ? (words as readonly Message[]) : []
+  const pairs = Array.isArray(doubleWords) ? (doubleWords as readonly Message[]) : []
   return [...single, ...pairs.flatMap(halves)]
 }
 
-function halves({ device, value }: Bag): Bag[] {
+function halves({ device, value }: Message): Message[] {
   if (!isAddress(device) || typeof value !== 'number') return [{ device, value }]
   const next = deviceInfo(device.device).unit === 'bit' ? 16 : 1
   return [

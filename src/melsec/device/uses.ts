@@ -1,5 +1,5 @@
 // Where the device addresses of a command stand in its message: found once per command from its declaration.
-import { isArrayLike, type Shape } from '../../codec/codec'
+import { isArrayLike, type Message, type Shape } from '../../codec/codec'
 import type { Command } from '../commands/command'
 import type { DeviceUse } from './access'
 import { deviceAddress } from './codec'
@@ -12,8 +12,6 @@ export interface FoundDevice {
   readonly address: DeviceAddress
   readonly use: DeviceUse
 }
-
-type Bag = Readonly<Record<string, unknown>>
 
 interface Places {
   /** Name of the address field of the message itself. */
@@ -41,24 +39,30 @@ function addressField(shape: Shape): string | undefined {
 }
 
 /** Every device address of a message that is about to be encoded. Fields of a wrong type are left to the encoder. */
-export function devicesOf(command: Command, message: Bag): readonly FoundDevice[] {
+export function devicesOf(command: Command, message: Message): readonly FoundDevice[] {
   // Plain JavaScript callers pass anything; the encoder says what is wrong with it.
-  if (!isBag(message)) return []
+  if (!isMessage(message)) return []
   const { own, lists } = placesOf(command.request)
   const found: FoundDevice[] = []
-  if (own !== undefined && isBag(message[own])) found.push(foundIn(command, message, own, undefined, own))
+  if (own !== undefined && isMessage(message[own])) found.push(foundIn(command, message, own, undefined, own))
   for (const { list, field } of lists) {
     const elements = message[list]
     if (!Array.isArray(elements)) continue
     elements.forEach((element, i) => {
-      if (isBag(element) && isBag(element[field]))
+      if (isMessage(element) && isMessage(element[field]))
         found.push(foundIn(command, element, field, list, `${list}.${i}.${field}`))
     })
   }
   return found
 }
 
-function foundIn(command: Command, holder: Bag, field: string, list: string | undefined, path: string): FoundDevice {
+function foundIn(
+  command: Command,
+  holder: Message,
+  field: string,
+  list: string | undefined,
+  path: string,
+): FoundDevice {
   const { points, values } = holder
   const count = typeof points === 'number' ? points : isArrayLike(values) ? values.length : undefined
   const use = {
@@ -70,6 +74,6 @@ function foundIn(command: Command, holder: Bag, field: string, list: string | un
   return { path, address: holder[field] as DeviceAddress, use: use as DeviceUse }
 }
 
-function isBag(value: unknown): value is Bag {
+function isMessage(value: unknown): value is Message {
   return typeof value === 'object' && value !== null
 }

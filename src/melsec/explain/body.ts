@@ -2,7 +2,7 @@
 
 import { hex } from '../../basics/hex'
 import { type AnnotatedRow, type Annotation, annotate, hasSecret, type Leaf } from '../../codec/annotate'
-import type { Context, DataCode, Shape } from '../../codec/codec'
+import type { Context, DataCode, Message, Shape } from '../../codec/codec'
 import type { Explainer } from '../../codec/explanation'
 import type { Command } from '../commands/command'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from '../device/codec'
@@ -14,8 +14,6 @@ import { type BodyLayout, commandFields, plainBody } from '../frame/body'
 import type { Profile } from '../profiles/profile'
 import { commandText, describeHead, subcommandText } from './head'
 import { describeValue, devicesOf, type Placed, splitRow, summaryOf, type WordsFor } from './values'
-
-type Bag = Readonly<Record<string, unknown>>
 
 /** What is known before a frame is read. */
 export interface Settings extends WordsFor {
@@ -33,7 +31,7 @@ export interface KnownRequest {
   readonly command: Command
   /** Bits of the value codecs. */
   readonly form: number
-  readonly message: Bag
+  readonly message: Message
 }
 
 interface Recognised {
@@ -183,7 +181,7 @@ function readData(
   settings: Settings,
   shape: Shape,
   options: { readonly form: number; readonly context?: Context },
-): Bag {
+): Message {
   return explainer.read(
     shape,
     (leaf: Leaf) => describeValue(leaf, settings),
@@ -212,7 +210,7 @@ function explainRaw(explainer: Explainer, settings: Settings, noted = false): vo
 export const OTHER_COMMAND = 'The answer is about another command than the request that was given.'
 
 /** Reads what stands behind an end code: which station refused which command. */
-export function explainErrorInformation(explainer: Explainer, settings: Settings): Bag {
+export function explainErrorInformation(explainer: Explainer, settings: Settings): Message {
   const { errorInformation } = settings.body ?? plainBody
   const { command, subcommand } = annotate(errorInformation, explainer.ahead(), { code: settings.code }).message
   const found = recognise(settings, Number(command), Number(subcommand))?.command

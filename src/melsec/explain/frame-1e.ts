@@ -1,6 +1,6 @@
 // A 1E frame in words. It has no length and no serial number: where an answer ends, only its request tells.
 import { annotate, type Leaf } from '../../codec/annotate'
-import { type DataCode, type Declaration, field, type Named, type Shape } from '../../codec/codec'
+import { type DataCode, type Declaration, field, type Message, type Named, type Shape } from '../../codec/codec'
 import { type Direction, Explainer, type FrameExplanation } from '../../codec/explanation'
 import { aCompatibleCommands } from '../a-compatible/commands'
 import { aCompatibleDevice } from '../a-compatible/device'
@@ -24,12 +24,11 @@ const ANSWER = 0x80
 const requestHead = { subheader: u8(), pc: u8(), monitoringTimer: u16() } as const satisfies Shape
 const responseHead = { subheader: u8(), endCode: u8() } as const satisfies Shape
 
-type Bag = Readonly<Record<string, unknown>>
 type Command = Named<Declaration, string>
 
 interface Request {
   readonly command: Command
-  readonly message: Bag
+  readonly message: Message
 }
 
 export function explain1e(bytes: Buffer, known: Known, options: ExplainFrameOptions): FrameExplanation {
@@ -109,7 +108,13 @@ function describe1e(leaf: Leaf): string | undefined {
     : `${commandText(value, commandOf(value - ANSWER)).slice(2)} answer`
 }
 
-function readData(explainer: Explainer, settings: Settings, shape: Shape, command: Command, request?: Bag): Bag {
+function readData(
+  explainer: Explainer,
+  settings: Settings,
+  shape: Shape,
+  command: Command,
+  request?: Message,
+): Message {
   const context = request === undefined ? {} : { context: { shape: command.request, message: request } }
   return explainer.read(
     shape,
@@ -135,7 +140,7 @@ function describeData(leaf: Leaf, settings: Settings): string | undefined {
 }
 
 /** Some PLCs put a dummy character behind an odd number of bits (FX3U-ENET-ADP user's manual 7.5). */
-function takeDummy(explainer: Explainer, code: DataCode, { values }: Bag): void {
+function takeDummy(explainer: Explainer, code: DataCode, { values }: Message): void {
   const odd = Array.isArray(values) && values.length % 2 === 1
   if (code !== 'ascii' || !odd || explainer.fault !== undefined || explainer.remaining !== 1) return
   explainer.take(1, { name: 'dummy', kind: 'text', text: 'dummy behind an odd number of bits' })

@@ -2,7 +2,7 @@
 
 import { hex } from '../../basics/hex'
 import { type AnnotatedRow, type Leaf, showBytes } from '../../codec/annotate'
-import type { Context, DataCode, Declaration, Field, Shape } from '../../codec/codec'
+import type { Context, DataCode, Declaration, Field, Message, Shape } from '../../codec/codec'
 import { aCompatibleDevice } from '../a-compatible/device'
 import { commands } from '../commands/commands'
 import { type AddressOptions, formatDevice } from '../device/address'
@@ -26,8 +26,6 @@ interface NamedValue {
   /** The word holds 16 bit devices from here on. */
   readonly bits?: DeviceAddress
 }
-
-type Bag = Readonly<Record<string, unknown>>
 
 /** Words for the fields of a command's data. */
 export function describeValue({ field, value }: Leaf, words: WordsFor): string | undefined {
@@ -155,7 +153,7 @@ function bitsOfWord(first: DeviceAddress, word: unknown, words: WordsFor): strin
 export interface Placed {
   /** Shape and message that the field stands in. */
   readonly shape: Shape
-  readonly message: Bag
+  readonly message: Message
   /** The request, when it is a response. */
   readonly context?: Context
 }
@@ -190,18 +188,18 @@ export function devicesOf(path: string, { shape, message, context }: Placed, wor
   }
 }
 
-function elementOf(list: unknown, index: number): Bag {
+function elementOf(list: unknown, index: number): Message {
   const element: unknown = Array.isArray(list) ? list[index] : undefined
-  return typeof element === 'object' && element !== null ? (element as Bag) : {}
+  return typeof element === 'object' && element !== null ? (element as Message) : {}
 }
 
-function headOf(shape: Shape, message: Bag): DeviceAddress | undefined {
+function headOf(shape: Shape, message: Message): DeviceAddress | undefined {
   const name = Object.keys(shape).find((key) => isDevice(shape[key]))
   const found = name === undefined ? undefined : message[name]
   return isAddress(found) ? found : undefined
 }
 
-function fromHead(shape: Shape, message: Bag, kind: string | undefined, words: WordsFor): DeviceAt | undefined {
+function fromHead(shape: Shape, message: Message, kind: string | undefined, words: WordsFor): DeviceAt | undefined {
   const head = headOf(shape, message)
   return head === undefined ? undefined : (index) => deviceOf(head, kind, index, words)
 }
@@ -217,7 +215,7 @@ function deviceOf(head: DeviceAddress, kind: string | undefined, index: number, 
 }
 
 /** What a request is about, for its title: `D100, 10 points`, `LINE.CSV`. */
-export function summaryOf({ request }: Declaration, message: Bag, words: WordsFor): string {
+export function summaryOf({ request }: Declaration, message: Message, words: WordsFor): string {
   const files = filesOf(request, message)
   if (files.length > 0) return files.join(', ')
   const head = headOf(request, message)
@@ -234,7 +232,7 @@ export function summaryOf({ request }: Declaration, message: Bag, words: WordsFo
 }
 
 /** Names of files, each behind the number of its drive: `4:LINE.CSV`. */
-function filesOf(request: Shape, message: Bag): string[] {
+function filesOf(request: Shape, message: Message): string[] {
   let drive: unknown
   return Object.entries(request).flatMap(([name, field]) => {
     if (field.kind !== 'value') return []
