@@ -127,7 +127,7 @@ function putValue(field: Extract<Field, { kind: 'value' }>, given: unknown, writ
 
 function putEcho(of: string, writer: Writer, context: Context | undefined): void {
   const { shape, message } = asked(context)
-  put(shape[of] as Field, of, message[of], message as Message, writer, undefined)
+  put(shape[of] as Field, of, message[of], message, writer, undefined)
 }
 
 function putEach(of: string, item: BulkField, given: unknown, writer: Writer, context: Context | undefined): void {
