@@ -67,7 +67,7 @@ const NOTHING: readonly Step[] = []
 /** ms for bytes to arrive before a reset, which would lose them. */
 const ARRIVAL = 5
 
-export class Connection {
+export class SimulatedConnection {
   /** Milliseconds since 1970. */
   readonly since: number
   readonly #shared: Shared

@@ -13,7 +13,7 @@ import type { Listener, OpenTransport, ServerConnection } from '../transport/tra
 import type { PlcValue, ValueFormat } from '../value/value'
 import { ACompatiblePort } from './a-compatible-port'
 import { type AnyHead, anyFrame } from './any-frame'
-import { Connection, type RequestEvent, type Shared } from './connection'
+import { type RequestEvent, type Shared, SimulatedConnection } from './connection'
 import type { Cpu, StateChange } from './cpu'
 import type { ErrorLog } from './error-log'
 import { Emitter } from './events'
@@ -154,7 +154,7 @@ class Simulator implements PlcSimulator {
   readonly #plc: Plc
   readonly #events = new Emitter<SimulatorEvents>()
   readonly #counters = newCounters()
-  readonly #connections = new Map<ServerConnection, Connection>()
+  readonly #connections = new Map<ServerConnection, SimulatedConnection>()
   readonly #memoryListeners = new Set<MemoryListener>()
   readonly #timers = new Set<() => void>()
   /** Entries that are not yet free again after their connections have ended. */
@@ -324,7 +324,7 @@ class Simulator implements PlcSimulator {
       peer.reset()
       return
     }
-    const connection = new Connection(this.#shared, peer, kind, owner, ++this.#counters.connections)
+    const connection = new SimulatedConnection(this.#shared, peer, kind, owner, ++this.#counters.connections)
     const turnAway = kind === 'stream' ? this.#turnAway(connection) : undefined
     if (turnAway !== undefined) {
       this.#counters.turnedAway++
@@ -338,7 +338,7 @@ class Simulator implements PlcSimulator {
   }
 
   /** How a connection ends before it begins, if it does. */
-  #turnAway(connection: Connection): 'close' | 'reset' | undefined {
+  #turnAway(connection: SimulatedConnection): 'close' | 'reset' | undefined {
     const subject: FaultSubject = {
       command: undefined,
       subcommand: 0,
@@ -352,7 +352,7 @@ class Simulator implements PlcSimulator {
     return taken >= this.#settings.maxConnections ? 'close' : undefined
   }
 
-  #gone(peer: ServerConnection, connection: Connection): void {
+  #gone(peer: ServerConnection, connection: SimulatedConnection): void {
     connection.end()
     this.#connections.delete(peer)
     if (connection.kind === 'stream' && this.#settings.entryRelease > 0 && !this.#down) {
@@ -397,7 +397,7 @@ class Simulator implements PlcSimulator {
   }
 }
 
-function info({ id, kind, remote, since, requests }: Connection): ConnectionInfo {
+function info({ id, kind, remote, since, requests }: SimulatedConnection): ConnectionInfo {
   return { id, kind, remote, since, requests }
 }
 
