@@ -16,7 +16,7 @@ import type { FaultSubject, Faults } from './faults'
 import type { Call } from './handler'
 import { unaskedHead } from './on-demand'
 import type { Answer, Plc } from './plc'
-import type { RemotePassword } from './port-lock'
+import type { PortPassword } from './port-lock'
 import { Refusal, requestErrors } from './refusal'
 import { type Ports, type Received, receive, slmpOf } from './request'
 import { Sequence, type Step } from './sequence'
@@ -54,7 +54,7 @@ export interface Shared {
   /** Receive buffer of the UDP port: requests it holds, the one that is being answered among them. */
   readonly datagramBuffer: { readonly size: number; used: number }
   readonly observe: (event: RequestEvent) => void
-  readonly password: RemotePassword
+  readonly password: PortPassword
 }
 
 interface Work extends FaultSubject {

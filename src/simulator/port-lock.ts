@@ -4,7 +4,7 @@ import { PORT_LOCKED } from '../melsec/remote-password'
 import type { Clock } from '../transport/clock'
 import { Refusal } from './refusal'
 
-export interface RemotePasswordSettings {
+export interface PortPasswordSettings {
   /** `undefined`: the port has no password and is never locked. */
   readonly password: string | undefined
   /** Wrong passwords in a row after which the port locks out. */
@@ -18,13 +18,13 @@ export interface RemotePasswordSettings {
 const UDP_IDLE = 10 * 60_000
 
 /** What the connections of a port share: the password, and how often it was wrong. */
-export class RemotePassword {
-  readonly #settings: RemotePasswordSettings
+export class PortPassword {
+  readonly #settings: PortPasswordSettings
   readonly #facts: PasswordFacts
   #failures = 0
   #lockedOutUntil = 0
 
-  constructor(facts: PasswordFacts, settings: RemotePasswordSettings) {
+  constructor(facts: PasswordFacts, settings: PortPasswordSettings) {
     this.#settings = settings
     this.#facts = facts
   }

@@ -23,7 +23,7 @@ import type { ProgramLabels } from './labels'
 import { chosen, type OnDemandData, type OnDemandOptions, onDemandBytes } from './on-demand'
 import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
 import { Plc } from './plc'
-import { RemotePassword } from './port-lock'
+import { PortPassword } from './port-lock'
 import { ProgramFiles } from './program-files'
 import type { ProgramMemory } from './program-memory'
 import { newCounters, type SimulatorStatistics } from './statistics'
@@ -286,7 +286,7 @@ class Simulator implements PlcSimulator {
       heldDatagrams: [],
       datagramBuffer: { size: 1 + profile.inFlight.udpBuffer, used: 0 },
       observe: (event) => this.#observe(event),
-      password: new RemotePassword(profile.password, this.#settings),
+      password: new PortPassword(profile.password, this.#settings),
     }
   }
 
