@@ -20,7 +20,7 @@ import {
   TimeoutError,
 } from '../src/index'
 import { endpoint, objectIn, type Reply } from './admin'
-import type { Connection } from './connection'
+import type { PlcConnection } from './connection'
 import { type AnsweringLine, answeringLines } from './connection-find'
 import { optionsOf, resolverOf, settingsOf } from './connection-settings'
 import { detailsOf, type FailureCode, type FailureDetails } from './failure'
@@ -55,7 +55,7 @@ export interface TestFailure extends FailureDetails {
   readonly mayFind: boolean
 }
 
-export function connectionTest(RED: NodeAPI, texts: Texts, deployed: (id: string) => Connection | undefined): void {
+export function connectionTest(RED: NodeAPI, texts: Texts, deployed: (id: string) => PlcConnection | undefined): void {
   let busy = false
   endpoint(RED, '/melsec-jw/connection/test', 'melsec-jw.write', texts, (body, over) =>
     alone(() => outcome(RED, texts, body, over, deployed)),
@@ -80,7 +80,7 @@ async function outcome(
   texts: Texts,
   body: StoredSettings,
   over: AbortSignal,
-  deployed: (id: string) => Connection | undefined,
+  deployed: (id: string) => PlcConnection | undefined,
 ): Promise<TestResult | TestFailure> {
   const id = typeof body.id === 'string' ? body.id : ''
   const connection = deployed(id)
@@ -143,7 +143,7 @@ async function found(
   texts: Texts,
   body: StoredSettings,
   over: AbortSignal,
-  deployed: (id: string) => Connection | undefined,
+  deployed: (id: string) => PlcConnection | undefined,
 ): Promise<Found> {
   const id = typeof body.id === 'string' ? body.id : ''
   let peer = ''
@@ -171,12 +171,12 @@ function optionsIn(RED: NodeAPI, id: string, given: StoredSettings, texts: Texts
 }
 
 /** The deployed connection has an entry of its PLC. */
-function isUp(connection: Connection | undefined): boolean {
+function isUp(connection: PlcConnection | undefined): boolean {
   return connection?.current?.state.name === 'connected'
 }
 
 /** The running client, when it speaks as is to be tested: the PLC may have no second entry for a test. */
-function connected(connection: Connection | undefined, options: MelsecClientOptions): MelsecClient | undefined {
+function connected(connection: PlcConnection | undefined, options: MelsecClientOptions): MelsecClient | undefined {
   if (connection?.options === undefined || connection.current?.state.name !== 'connected') return undefined
   return wire(connection.options) === wire(options) ? connection.current : undefined
 }

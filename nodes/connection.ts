@@ -16,7 +16,7 @@ const GRACE = 5000
  * The client of one connection node. It connects in the background as soon as a node uses it, and is closed when a
  * deploy leaves it without users or takes it away.
  */
-export class Connection {
+export class PlcConnection {
   #client: MelsecClient | undefined
   #closed = false
   #complained: string | undefined
@@ -36,14 +36,14 @@ export class Connection {
    * Never throws: wrong settings become the `failure` of everybody who uses the connection.
    * @param optionsOf reads the settings
    */
-  static of(node: Node, texts: Texts, optionsOf: () => MelsecClientOptions): Connection {
+  static of(node: Node, texts: Texts, optionsOf: () => MelsecClientOptions): PlcConnection {
     try {
       const options = optionsOf()
-      const connection = new Connection(node, texts, options, undefined)
+      const connection = new PlcConnection(node, texts, options, undefined)
       connection.#open(options)
       return connection
     } catch (error) {
-      return new Connection(node, texts, undefined, settingsFailure(error, texts))
+      return new PlcConnection(node, texts, undefined, settingsFailure(error, texts))
     }
   }
 
@@ -157,13 +157,13 @@ function settingsFailure(error: unknown, texts: Texts): NodeFailure {
 }
 
 /** The connection behind each running connection node. Another copy of this package has nodes of its own. */
-const connections = new WeakMap<Node, Connection>()
+const connections = new WeakMap<Node, PlcConnection>()
 
-export function setConnection(node: Node, connection: Connection): void {
+export function setConnection(node: Node, connection: PlcConnection): void {
   connections.set(node, connection)
 }
 
 /** @param node what `RED.nodes.getNode` gave, `null` included */
-export function connectionOf(node: Node | null | undefined): Connection | undefined {
+export function connectionOf(node: Node | null | undefined): PlcConnection | undefined {
   return node ? connections.get(node) : undefined
 }

@@ -8,7 +8,7 @@
 import type { NodeAPI } from 'node-red'
 import type { Drive, FileEntry } from '../src/index'
 import { endpoint, type Reply } from './admin'
-import { type Connection, connectionOf } from './connection'
+import { connectionOf, type PlcConnection } from './connection'
 import { detailsOf } from './failure'
 import type { Texts } from './texts'
 
@@ -27,7 +27,7 @@ export function fileList(RED: NodeAPI, texts: Texts): void {
   })
 }
 
-async function list(connection: Connection | undefined, directory: string, texts: Texts): Promise<Listed> {
+async function list(connection: PlcConnection | undefined, directory: string, texts: Texts): Promise<Listed> {
   try {
     if (connection === undefined) return { ok: false, message: texts('error.notDeployed') }
     const { client } = connection

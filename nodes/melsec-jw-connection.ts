@@ -3,7 +3,7 @@ import type { Node, NodeAPI, NodeDef } from 'node-red'
 import { typeNames } from '../src/entry/address'
 import { type ProfileId, profileIds, profiles } from '../src/index'
 import { addressCheck } from './address-check'
-import { Connection, connectionOf, setConnection } from './connection'
+import { connectionOf, PlcConnection, setConnection } from './connection'
 import { LONGEST_PAUSE, optionsOf, type Resolve, resolverOf, settingsOf } from './connection-settings'
 import { connectionTest } from './connection-test'
 import type { Migration } from './migration'
@@ -12,8 +12,8 @@ import { sharedTexts, type Texts } from './texts'
 
 const migrations: readonly Migration[] = []
 
-function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): Connection {
-  const connection = Connection.of(node, texts, () => {
+function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): PlcConnection {
+  const connection = PlcConnection.of(node, texts, () => {
     const current = readSettings({ ...stored }, migrations, texts)
     const resolve = resolverOf(RED, node, texts)
     return { ...optionsOf(settingsOf(current, { texts, resolve }), texts), ...secretsOf(node, resolve) }
@@ -52,7 +52,7 @@ function factsOf(id: ProfileId): object {
 
 export = function register(RED: NodeAPI): void {
   const texts = sharedTexts(RED)
-  const running = new Set<Connection>()
+  const running = new Set<PlcConnection>()
   RED.nodes.registerType(
     'melsec-jw-connection',
     function (this: Node, stored: NodeDef) {

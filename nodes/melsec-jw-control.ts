@@ -1,7 +1,7 @@
 /** Node `melsec-jw-control`: remote control of the CPU and questions about the PLC itself. */
 import type { NodeAPI } from 'node-red'
 import type { ClearMode, Control, MelsecClient } from '../src/index'
-import type { Connection } from './connection'
+import type { PlcConnection } from './connection'
 import { refusal } from './failure'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
@@ -96,7 +96,7 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
   }
 }
 
-function carryOut(connection: Connection, name: CommandName, options: Options): Promise<object> {
+function carryOut(connection: PlcConnection, name: CommandName, options: Options): Promise<object> {
   const command: Command = commands[name]
   return command.run(command.controls ? connection.clientFor('control') : connection.client, options)
 }

@@ -2,7 +2,7 @@
 import type { NodeAPI } from 'node-red'
 import { commandNamed, commands, describeCommand } from '../src/entry/codec'
 import { type BufferMemory, extendUnits, type MelsecClient, type ModulePlace } from '../src/index'
-import type { Connection } from './connection'
+import type { PlcConnection } from './connection'
 import { refusal } from './failure'
 import { type Input, inputIn } from './input'
 import type { Migration, StoredSettings } from './migration'
@@ -40,7 +40,7 @@ function commandWork(settings: StoredSettings, tools: Tools): Work {
   }
 }
 
-function clientFor(connection: Connection, effect: string): MelsecClient {
+function clientFor(connection: PlcConnection, effect: string): MelsecClient {
   return effect === 'write' || effect === 'control' ? connection.clientFor(effect) : connection.client
 }
 

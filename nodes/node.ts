@@ -4,7 +4,7 @@
  */
 import type { Node, NodeAPI, NodeDef, NodeMessage, NodeMessageInFlow } from 'node-red'
 import { Busy, type BusyRuleOf } from './busy'
-import { type Connection, connectionOf } from './connection'
+import { connectionOf, type PlcConnection } from './connection'
 import { failureOf, type NodeFailure, refusal } from './failure'
 import { type Migration, migrated, type StoredSettings } from './migration'
 import { Display } from './status'
@@ -15,7 +15,7 @@ export interface Tools {
   readonly RED: NodeAPI
   readonly node: Node
   readonly texts: Texts
-  readonly connection: Connection
+  readonly connection: PlcConnection
 }
 
 /** What came of a message. */
@@ -125,7 +125,7 @@ function refuseAll(node: Node, display: Display, failure: NodeFailure, logged: b
 
 interface Service {
   readonly work: Work
-  readonly connection: Connection
+  readonly connection: PlcConnection
   readonly display: Display
   readonly texts: Texts
   readonly changesPlc: boolean
