@@ -1,16 +1,13 @@
 import { describe, expect, test } from '@jest/globals'
-import fc from 'fast-check'
 import { RequestError } from '../../src/errors'
 import type { FrameName } from '../../src/melsec/frame/frames'
 import {
   checkRouteOf,
   completeRoute,
   describeRoute,
-  formatRoute,
   isConnectedStation,
   moduleIoNumbers,
   ownStation,
-  parseRoute,
   type Route,
 } from '../../src/melsec/frame/route'
 
@@ -165,37 +162,6 @@ describe('a frame', () => {
 })
 
 describe('text', () => {
-  test.each<[string, Route]>([
-    ['own', ownStation],
-    [' OWN ', ownStation],
-    ['0/255', ownStation],
-    ['1/3', { network: 1, station: 3, moduleIo: 0x3ff, multidrop: 0 }],
-    ['1/3/cpu2', { network: 1, station: 3, moduleIo: 0x3e1, multidrop: 0 }],
-    ['0/255/3E0', { ...ownStation, moduleIo: 0x3e0 }],
-    ['0 / 255 / systemA', { ...ownStation, moduleIo: 0x3d2 }],
-    ['1/3/0004/5', { network: 1, station: 3, moduleIo: 4, multidrop: 5 }],
-    ['1/300', { network: 1, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 300 }],
-    ['1/124/3FF/0/125', { network: 1, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 125 }],
-    ['1/125/own/0/0', { network: 1, station: 125, moduleIo: 0x3ff, multidrop: 0, extensionStation: 0 }],
-    ['0/124/own/0/65535', { network: 0, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 65_535 }],
-  ])('%s', (text, route) => {
-    expect(parseRoute(text)).toEqual(route)
-    expect(parseRoute(formatRoute(route))).toEqual(route)
-  })
-
-  test.each(['', '1', '1/2/3FF/0/0/0', '1/2/3FF/0/x', 'a/1', '1/x', '1/2/zz', '1/2/3FF/x', '-1/2', '1/2/'])(
-    '%j is no route',
-    (text) => {
-      expect(refusal(() => parseRoute(text)).code).toBe('BAD_OPTION')
-    },
-  )
-
-  test('a number that does not exist is out of range', () => {
-    expect(refusal(() => parseRoute('1/65535')).code).toBe('OUT_OF_RANGE')
-    expect(refusal(() => parseRoute('1/124/3FF/0/7')).code).toBe('OUT_OF_RANGE')
-    expect(refusal(() => parseRoute('1/2/0200')).code).toBe('OUT_OF_RANGE')
-  })
-
   test('describes any station, also one a PLC reports that no request could name', () => {
     expect(describeRoute(ownStation)).toBe('network 0, station 255, module I/O 03FF, multidrop 0')
     expect(describeRoute({ network: 255, station: 254, moduleIo: 0xffff, multidrop: 200 })).toBe(
@@ -210,53 +176,5 @@ describe('text', () => {
         `network 1, station 124, extension station ${extensionStation}`,
       )
     }
-  })
-
-  test('parsing what was formatted gives the same route', () => {
-    const place = fc.oneof(
-      fc.constant({ network: 0, station: 255 }),
-      fc.record({
-        network: fc.integer({ min: 1, max: 239 }),
-        station: fc.oneof(
-          fc.integer({ min: 1, max: 65_534 }).filter((station) => station !== 124 && station !== 255),
-          fc.constantFrom(125, 126),
-        ),
-      }),
-      fc.record({
-        network: fc.integer({ min: 1, max: 239 }),
-        station: fc.constant(124),
-        extensionStation: fc.oneof(fc.integer({ min: 121, max: 65_534 }), fc.constantFrom(0, 124, 125, 126, 255)),
-      }),
-      fc.record({
-        network: fc.integer({ min: 1, max: 239 }),
-        station: fc.constantFrom(1, 120, 125, 126),
-        extensionStation: fc.constant(0),
-      }),
-    )
-    const module = fc.oneof(
-      fc.record({
-        moduleIo: fc.constantFrom(...moduleIoNumbers.map(({ number }) => number)),
-        multidrop: fc.constant(0),
-      }),
-      fc.record({ moduleIo: fc.integer({ min: 0, max: 0x1ff }), multidrop: fc.integer({ min: 0, max: 31 }) }),
-    )
-    fc.assert(
-      fc.property(place, module, (where, what) => {
-        const route = completeRoute({ ...where, ...what })
-        expect(parseRoute(formatRoute(route))).toEqual(route)
-      }),
-    )
-  })
-
-  test('any text is a route or a RequestError', () => {
-    fc.assert(
-      fc.property(fc.oneof(fc.string(), fc.string({ unit: fc.constantFrom(...'0123456789/aFwn ') })), (text) => {
-        try {
-          parseRoute(text)
-        } catch (error) {
-          expect(error).toBeInstanceOf(RequestError)
-        }
-      }),
-    )
   })
 })

@@ -31,7 +31,7 @@ export type RouteToStation = Pick<Route, 'network' | 'station' | 'extensionStati
 /** The station the connection goes to, and its CPU. */
 export const ownStation: Route = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }
 
-/** Request destination module I/O numbers that have a name (SLMP p. 21). `name` is what `parseRoute` takes. */
+/** Request destination module I/O numbers that have a name (SLMP p. 21). `name` is what the command line takes. */
 export const moduleIoNumbers = [
   { name: 'own', title: 'own station, control CPU', number: 0x3ff },
   { name: 'cpu1', title: 'multiple CPU No. 1, remote head No. 1', number: 0x3e0 },
@@ -200,63 +200,6 @@ function checkMultidrop({ moduleIo, multidrop }: Route): void {
       `Multidrop station ${multidrop} needs the module I/O number of its serial module (0000 to 01FF), not ${hex(moduleIo, 4)}.`,
     )
   }
-}
-
-/**
- * Reads `network/station`, behind it as far as wanted `/module I/O`, `/multidrop` and `/extension station`, or `own`.
- * Numbers are decimal, the module I/O number is hexadecimal or a name of `moduleIoNumbers`.
- * @throws RequestError BAD_OPTION when it is not a route, OUT_OF_RANGE when a number does not exist.
- * @example parseRoute('1/3')         // station 3 on network 1
- * @example parseRoute('0/255/cpu2')  // CPU No. 2 of the connected station
- */
-export function parseRoute(text: string): Route {
-  const parts = text.trim().split('/')
-  if (parts.length === 1 && parts[0]?.toLowerCase() === 'own') return ownStation
-  const [network = '', station = '', moduleIo, multidrop, extensionStation] = parts
-  if (parts.length < 2 || parts.length > 5) {
-    throw new RequestError('BAD_OPTION', `${JSON.stringify(text)} is not a route: ${ROUTE_SYNTAX}`, 'route')
-  }
-  return completeRoute({
-    network: parseNumber('network', network),
-    station: parseNumber('station', station),
-    ...(moduleIo === undefined ? {} : { moduleIo: parseModuleIo(moduleIo) }),
-    ...(multidrop === undefined ? {} : { multidrop: parseNumber('multidrop', multidrop) }),
-    ...(extensionStation === undefined ? {} : { extensionStation: parseNumber('extensionStation', extensionStation) }),
-  })
-}
-
-const ROUTE_SYNTAX =
-  'write own, or network/station[/module I/O[/multidrop[/extension station]]], e.g. 1/3 or 0/255/03E1.'
-
-function parseNumber(field: keyof Route, text: string): number {
-  const digits = text.trim()
-  if (/^[0-9]{1,5}$/.test(digits)) return Number(digits)
-  throw new RequestError(
-    'BAD_OPTION',
-    `The ${field} ${JSON.stringify(text)} of a route is not a decimal number.`,
-    `route.${field}`,
-  )
-}
-
-function parseModuleIo(text: string): number {
-  const wanted = text.trim().toLowerCase()
-  const named = moduleIoNumbers.find(({ name }) => name.toLowerCase() === wanted)
-  if (named !== undefined) return named.number
-  if (/^[0-9a-f]{1,4}$/.test(wanted)) return Number.parseInt(wanted, 16)
-  const names = moduleIoNumbers.map(({ name }) => name).join(', ')
-  throw new RequestError(
-    'BAD_OPTION',
-    `The module I/O number ${JSON.stringify(text)} of a route is not hexadecimal and none of ${names}.`,
-    'route.moduleIo',
-  )
-}
-
-/** Text that `parseRoute` reads back, e.g. `1/3/03FF/0`. */
-export function formatRoute(route: Route): string {
-  const { network, moduleIo, multidrop, extensionStation } = route
-  const plain = plainStation(route)
-  const text = `${network}/${plain ?? route.station}/${hex(moduleIo, 4)}/${multidrop}`
-  return plain === undefined ? `${text}/${extensionStation ?? 0}` : text
 }
 
 /** The number that says the station without an extension, if one does. */
