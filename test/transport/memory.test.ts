@@ -1,8 +1,9 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { joinAll, type Side, splitEvery } from '../../src/transport/delivery'
+import type { Side } from '../../src/transport/delivery'
 import { listenMemory, type MemoryOptions } from '../../src/transport/memory'
 import type { ServerConnection } from '../../src/transport/transport'
+import { joinAll, splitEvery } from '../support/chunking'
 import { record } from './recorder'
 
 /** A server in memory that echoes and notes what happens to it. */
