@@ -1,7 +1,7 @@
 // The one timer of a connection, with a clock that rings when it is told to.
 import { describe, expect, test } from '@jest/globals'
 import { Alarm } from '../../src/client/connection/alarm'
-import { manualClock } from '../../src/transport/clock'
+import { manualClock } from '../support/manual-clock'
 
 function bench() {
   const rings: number[] = []

@@ -2,9 +2,9 @@
 import { Connection, type ConnectionOptions, type ConnectionState } from '../../src/client/connection/connection'
 import type { PlcError } from '../../src/errors'
 import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
-import { manualClock } from '../../src/transport/clock'
 import { listenMemory } from '../../src/transport/memory'
 import type { OpenTransport, Transport } from '../../src/transport/transport'
+import { manualClock } from '../support/manual-clock'
 import { exchanges, type Frame, ScriptedPlc } from './scripted-plc'
 
 export type Kind = 'stream' | 'datagram'

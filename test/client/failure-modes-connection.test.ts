@@ -8,7 +8,7 @@ import {
   type PlcError,
   TimeoutError,
 } from '../../src/index'
-import { manualClock } from '../../src/transport/clock'
+import { manualClock } from '../support/manual-clock'
 import { ample, brief, clientOptions, failureOf, kind, links, nextState, until, withLine } from './line'
 
 const SHORT = 150

@@ -6,7 +6,7 @@ import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { ConnectionError, EndCodeError, PlcError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
-import { manualClock } from '../../src/transport/clock'
+import { manualClock } from '../support/manual-clock'
 import { freePort, settle } from '../transport/recorder'
 
 const PASSWORD = 'Secret-1'

@@ -8,7 +8,7 @@ import { type ACompatibleOptions, aCompatibleProtocol } from '../../src/melsec/a
 import type { DeviceName } from '../../src/melsec/device/device'
 import { frame1e } from '../../src/melsec/frame/frame-1e'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
-import { manualClock } from '../../src/transport/clock'
+import { manualClock } from '../support/manual-clock'
 import { readD, withClient, word } from './wire'
 
 type Code = 'binary' | 'ascii'

@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
 import { type Fault, faultKinds } from '../../src/simulator/simulator'
-import { manualClock } from '../../src/transport/clock'
+import { manualClock } from '../support/manual-clock'
 import { settle } from '../transport/recorder'
 import { done, type Protocol, readD, refused, until, withClient, word, writeD } from './wire'
 

@@ -6,7 +6,7 @@ import { frame3e } from '../../src/melsec/frame/slmp-frame'
 import { profileIds } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { createPlcSimulator } from '../../src/simulator/server'
-import { manualClock } from '../../src/transport/clock'
+import { manualClock } from '../support/manual-clock'
 import { readD, word } from './wire'
 
 const CODES = ['binary', 'ascii'] as const

@@ -17,7 +17,7 @@ import {
   type PlcSimulator,
   type PlcSimulatorOptions,
 } from '../../src/simulator/server'
-import { type ManualClock, manualClock } from '../../src/transport/clock'
+import { type ManualClock, manualClock } from '../support/manual-clock'
 
 const ALL_FORMS: readonly DeviceForm[] = ['short', 'long', 'extendedShort', 'extendedLong']
 

@@ -1,6 +1,7 @@
 import { afterEach, describe, expect, jest, test } from '@jest/globals'
 import fc from 'fast-check'
-import { manualClock, realClock } from '../../src/transport/clock'
+import { realClock } from '../../src/transport/clock'
+import { manualClock } from '../support/manual-clock'
 
 describe('the real clock', () => {
   afterEach(() => {
