@@ -25,8 +25,6 @@ export const exitCodes = {
   notVerified: { code: 7, meaning: 'carried out, but the CPU is not in the state it was to be in, or does not tell' },
 } as const
 
-export type ExitName = keyof typeof exitCodes
-
 /** The exit code of an error that ended a command. */
 export function exitOf(error: PlcError): number {
   // Given up because of another one: that one counts.

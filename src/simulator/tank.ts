@@ -12,7 +12,7 @@ export interface Actuators {
 /** l */
 export const TANK_CAPACITY = 1000
 /** °C */
-export const AMBIENT = 20
+const AMBIENT = 20
 /** l/s; the demo runs faster than a real plant, so that a batch takes about a minute. */
 const INLET_FLOW = 40
 const OUTLET_FLOW = 50

@@ -25,7 +25,7 @@ export interface FileCalls {
 }
 
 /** Bytes of one request (SLMP reference manual 5.8, Read File and Write File). Offsets are multiples of it: even, and of 4. */
-export const FILE_CHUNK = 1920
+const FILE_CHUNK = 1920
 
 const MODES = { read: 0x0000, write: 0x0100 } as const
 

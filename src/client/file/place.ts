@@ -42,7 +42,7 @@ export function fileOf(given: FilePath, profile: Profile): FilePlace {
   throw new RequestError('BAD_ADDRESS', `${place.text} is the root of a drive: name a file, as in ${place.text}A.CSV.`)
 }
 
-export function placeAt(drive: number, path: string): FilePlace {
+function placeAt(drive: number, path: string): FilePlace {
   const end = path.lastIndexOf(SEPARATOR)
   return {
     drive,

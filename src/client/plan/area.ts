@@ -46,7 +46,7 @@ export function isModified({ index, indirect, extensionIndex }: DeviceAddress): 
 }
 
 /** In a network module or a buffer memory, or modified: such addresses never share a request with ordinary ones. */
-export function isExtended(address: DeviceAddress): boolean {
+function isExtended(address: DeviceAddress): boolean {
   return address.extension !== undefined || isModified(address)
 }
 

@@ -41,7 +41,7 @@ const renamed: readonly ACompatibleWindow[] = [
 export const fx5Windows: readonly ACompatibleWindow[] = [...ordinary, ...renamed]
 
 /** FX3: special relays and registers are called M8000 and D8000; SM8000 and SD8000 mean the same. */
-export const fx3Windows: readonly ACompatibleWindow[] = [
+const fx3Windows: readonly ACompatibleWindow[] = [
   ...ordinary,
   plain('M', 512, 8000),
   plain('D', 512, 8000),
@@ -115,7 +115,7 @@ export const aCompatibleLimits: readonly ACompatibleLimit[] = [
 ]
 
 /** In word units a bit device starts at a multiple of this (39.1, footnote *1). */
-export const HEAD_MULTIPLE = 16
+const HEAD_MULTIPLE = 16
 
 /** Commands in bit units. */
 const BIT_UNITS: readonly ACompatibleCommandName[] = ['readBits', 'writeBits', 'writeRandomBits']

@@ -73,4 +73,3 @@ export const unsolicitedCommands = declare({
 })
 
 /** Names of what a PLC sends of its own accord. */
-export type UnsolicitedCommandName = keyof typeof unsolicitedCommands

@@ -31,7 +31,7 @@ export function passwordLimit(min: number, max: number, source: string): LimitRu
 const password = 'SLMP reference manual 5.7, remote password length'
 
 /** Read and Write, the same in every form. */
-export function batchLimits(forms: readonly DeviceForm[]): readonly LimitRule[] {
+function batchLimits(forms: readonly DeviceForm[]): readonly LimitRule[] {
   return [
     {
       commands: ['readWords', 'writeWords'],

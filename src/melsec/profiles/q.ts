@@ -9,7 +9,7 @@ import { networks, openSettings, ownStationTimer } from './reach'
 import { doubtfulClearError, doubtfulMemoryCommands } from './shared-lacks'
 
 /** What Q and L share: long devices came with iQ-R. */
-export const absentOnQAndL: readonly DeviceName[] = [
+const absentOnQAndL: readonly DeviceName[] = [
   'LTS',
   'LTC',
   'LTN',
@@ -52,7 +52,7 @@ export const notOnBuiltInPorts: readonly Lack[] = [
   },
 ]
 
-export const qStatus: StatusRegister = {
+const qStatus: StatusRegister = {
   device: 'SD',
   number: 203,
   source: 'special register list of the QCPU manuals, Operating status of CPU',
