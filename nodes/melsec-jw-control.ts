@@ -3,6 +3,7 @@ import type { NodeAPI } from 'node-red'
 import type { ClearMode, Control, MelsecClient } from '../src/index'
 import type { PlcConnection } from './connection'
 import { refusal } from './failure'
+import { InOrder } from './in-order'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
 import { textIn, wordIn } from './stored'
@@ -87,10 +88,17 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
     verify: settings.verify === true,
   }
   const fixed = type === 'command' ? commandNamed(value, texts) : undefined
+  const found = async (message: Parameters<Work>[0]) =>
+    fixed === undefined
+      ? chosen(await evaluate(RED, node, message, { value, type }), usual, texts)
+      : { name: fixed, options: usual }
+  // A STOP does not wait until it is verified that the CPU runs.
+  const inOrder = new InOrder(tools)
   return async (message) => {
-    const given = fixed === undefined ? await evaluate(RED, node, message, { value, type }) : undefined
-    const { name, options } = fixed === undefined ? chosen(given, usual, texts) : { name: fixed, options: usual }
-    const told: { verified?: boolean } = await carryOut(connection, name, options)
+    const { name, told } = await inOrder.act(found(message), async ({ name, options }) => {
+      const told: { verified?: boolean } = await carryOut(connection, name, options)
+      return { name, told }
+    })
     message.payload = { command: name, ...told }
     return { messages: [message], ...(told.verified === false ? { unverified: true } : {}) }
   }

@@ -4,6 +4,7 @@ import { commandNamed, commands, describeCommand } from '../src/entry/codec'
 import { type BufferMemory, extendUnits, type MelsecClient, type ModulePlace } from '../src/index'
 import type { PlcConnection } from './connection'
 import { refusal } from './failure'
+import { InOrder } from './in-order'
 import { type Input, inputIn } from './input'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
@@ -33,9 +34,11 @@ function commandWork(settings: StoredSettings, tools: Tools): Work {
   const asked = messageSource(settings, tools)
   // A fixed message that the PLC cannot be asked is seen at the deploy.
   if (asked.fixed !== undefined) connection.client.explainRequest(name, asked.fixed)
+  const inOrder = new InOrder(tools)
   return async (message) => {
-    const json = await asked.of(message)
-    message.payload = await clientFor(connection, effect).requestByName(name, json)
+    message.payload = await inOrder.act(asked.of(message), async (json) =>
+      clientFor(connection, effect).requestByName(name, json),
+    )
     return { messages: [message] }
   }
 }
@@ -82,11 +85,12 @@ function memoryWork(settings: StoredSettings, tools: Tools): Work {
     }
   }
   const values = inputIn(settings, 'values', valueTypes, tools)
+  const inOrder = new InOrder(tools)
   return async (message) => {
-    // Both at once: flows change their messages and variables.
-    const [where, given] = await Promise.all([address(message), values(message)])
-    const from = numberOf('address', where, texts)
-    await of(connection.clientFor('write')).write(from, wordsOf(given, texts))
+    await inOrder.act(Promise.all([address(message), values(message)]), async ([where, given]) => {
+      const from = numberOf('address', where, texts)
+      await of(connection.clientFor('write')).write(from, wordsOf(given, texts))
+    })
     return { messages: [message] }
   }
 }

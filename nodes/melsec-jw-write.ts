@@ -2,6 +2,7 @@
 import type { NodeAPI } from 'node-red'
 import { type Item, type MelsecClient, nameResults } from '../src/index'
 import { refusal } from './failure'
+import { InOrder } from './in-order'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
 import { type ItemRow, itemOf, nameOf, rowsIn, textIn, wordIn } from './stored'
@@ -23,10 +24,10 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
   const readBack = settings.readBack === true
   const readModifyWrite = settings.readModifyWrite === true
   const convert = settings.convert === true
-  return async (message) => {
-    const given = await entriesFor(message)
+  const found = async (message: Parameters<Work>[0]) =>
+    fittingEntries(connection.clientFor('write'), await entriesFor(message), convert)
+  const act = async (entries: readonly NamedEntry[]): Promise<void> => {
     const client = connection.clientFor('write')
-    const entries = await fittingEntries(client, given, convert)
     const written = await client.writeEach(entries, { readModifyWrite, allOrNothing: true })
     const results = nameResults(
       written,
@@ -35,6 +36,11 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
     const failure = writeFailure(entries, results, texts)
     if (failure !== undefined) throw convert ? failure : withHint(failure, client, entries, texts)
     if (readBack) await check(client, entries, tools)
+  }
+  // Whole: a message may take several requests, and what is read back must not be what the next one wrote.
+  const inOrder = new InOrder(tools, true)
+  return async (message) => {
+    await inOrder.act(found(message), act)
     return { messages: [message] }
   }
 }

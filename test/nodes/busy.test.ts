@@ -4,7 +4,16 @@ import type { PlcSimulator } from '../../src/entry/simulator'
 import { type HeadlessBrowser, launchBrowser } from '../support/browser'
 import { type FlowNode, type Message, type NodeRed, type Status, startNodeRed } from '../support/node-red'
 import { close, edit, property } from './dialog'
-import { type CaughtError, catchNode, connectionTo, readNode, startPlc, writeNode } from './flow'
+import {
+  type CaughtError,
+  catchNode,
+  connectionTo,
+  controlNode,
+  readNode,
+  requestNode,
+  startPlc,
+  writeNode,
+} from './flow'
 
 /** What the PLC needs for an answer in the tests of overload, ms. */
 const ANSWER = 40
@@ -13,7 +22,7 @@ let red: NodeRed
 let plc: PlcSimulator
 
 beforeAll(async () => {
-  plc = await startPlc()
+  plc = await startPlc({ bufferMemory: 1024 })
   red = await startNodeRed()
 }, 60_000)
 
@@ -26,6 +35,12 @@ afterEach(() => {
   plc.faults.clear()
   red.forget()
 })
+
+/** Sends messages that write 1, 2, 3 and so on. */
+function many(count: number): FlowNode {
+  const func = `return [Array.from({ length: ${count} }, (_, i) => ({ payload: { D100: i + 1 } }))]`
+  return { id: 'many', type: 'function', func, wires: [['write', 'read']] }
+}
 
 type Shown = Status & { readonly skipped?: number; readonly waiting?: number }
 
@@ -247,6 +262,78 @@ test('seven read nodes every 200 ms, a write every second, a PLC that needs 40 m
     expect(skipped - (status?.skipped ?? 0)).toBeLessThanOrEqual(3)
   }
 }, 40_000)
+
+describe('what changes the PLC is never skipped, and done in the order of the messages', () => {
+  /** Two messages, of which the first takes longer to be found out: as from a context store on a disk. */
+  const two = (to: string): FlowNode => ({
+    id: 'two',
+    type: 'function',
+    func: `const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms))
+      return [[{ ms: 200, value: 1, command: 'stop' }, { ms: 0, value: 2, command: 'run' }]
+        .map(({ ms, ...values }, number) => ({ ...values, number, wait: () => sleep(ms).then(() => true) }))]`,
+    wires: [[to]],
+  })
+  const late = (answer: string) => `(wait(); ${answer})`
+  const memory = { mode: 'memory', access: 'write', address: '100', addressType: 'num' }
+
+  test.each([
+    ['write', writeNode({ valuesType: 'jsonata', values: late('{ "D100": value }') })],
+    [
+      'request',
+      requestNode({
+        command: 'writeWords',
+        messageType: 'jsonata',
+        message: late('{ "head": "D100", "values": [value] }'),
+      }),
+    ],
+    ['request', requestNode({ ...memory, valuesType: 'jsonata', values: late('value') })],
+    ['control', controlNode({ commandType: 'jsonata', command: late('command') })],
+  ])('%s: also when the first message takes longer to be found out', async (id, node) => {
+    await red.deploy([connectionTo(plc, { allowWrites: true, allowControl: true }), two(id), node, catchNode()])
+    await red.receive('two', {})
+    await beats(id, 2)
+    expect(red.pending('catch')).toEqual([])
+    expect(red.completions.filter((each) => each.id === id).map(({ message }) => message.number)).toEqual([0, 1])
+    expect(plc.cpu.state).toBe('RUN')
+  })
+
+  test('write: also when the type of a label is asked for first', async () => {
+    const other = await startPlc({ labels: { 'Line1.Speed': { type: 'REAL' } } })
+    await red.deploy([connectionTo(other, { allowWrites: true }), writeNode({ convert: true }), catchNode()])
+    await red.status('write', { fill: 'green' })
+    other.faults.add({ kind: 'delay', ms: 100 })
+    await red.receive('write', { payload: { 'Line1.Speed': '5', D100: 1 } })
+    await red.receive('write', { payload: { D100: 2 } })
+    await beats('write', 2)
+    expect(other.read('D100')).toBe(2)
+    expect(red.pending('catch')).toEqual([])
+    await red.deploy([])
+    await other.close()
+  })
+
+  test('write: what is read back is not what the next message wrote', async () => {
+    const node = writeNode({ readBack: true })
+    await red.deploy([connectionTo(plc, { allowWrites: true }), { ...many(10), wires: [['write']] }, node, catchNode()])
+    await red.receive('many', {})
+    for (let number = 1; number <= 10; number++) expect((await red.next('write')).payload).toEqual({ D100: number })
+    expect(red.pending('catch')).toEqual([])
+  })
+
+  test('write: a hundred at once to a slow PLC, beside reads', async () => {
+    plc.faults.add({ kind: 'delay', ms: 10 })
+    await red.deploy([
+      connectionTo(plc, { allowWrites: true }),
+      many(100),
+      writeNode(),
+      readNode(['D100'], { busy: 'newest' }),
+      catchNode(),
+    ])
+    await red.receive('many', {})
+    for (let number = 1; number <= 100; number++) expect((await red.next('write')).payload).toEqual({ D100: number })
+    expect(plc.read('D100')).toBe(100)
+    expect(red.pending('catch')).toEqual([])
+  })
+})
 
 describe('in the editor', () => {
   let browser: HeadlessBrowser
