@@ -5,7 +5,7 @@ import { nanosPerCall, row, title } from './measure.mjs'
 const require = createRequire(import.meta.url)
 const { decode, encode, field, readerOf, writerOf } = require('../dist/src/codec/codec.js')
 const { commands } = require('../dist/src/melsec/commands/commands.js')
-const { frame3e } = require('../dist/src/melsec/frame/slmp-frame.js')
+const { slmpFraming } = require('../dist/src/melsec/frame/slmp-frame.js')
 const { MelsecProtocol } = require('../dist/src/melsec/protocol.js')
 const { resolveProfile } = require('../dist/src/melsec/profiles/profiles.js')
 const { ownStation } = require('../dist/src/melsec/frame/route.js')
@@ -46,8 +46,8 @@ function benchRequests() {
   const profile = resolveProfile('iq-r')
   for (const code of ['binary', 'ascii']) {
     const protocol = new MelsecProtocol({
-      framing: frame3e('4E', code),
-      head: { route: ownStation, timer: 0 },
+      framing: slmpFraming('4E', code),
+      head: { ...ownStation, timer: 0 },
       profile,
       code,
     })
@@ -67,5 +67,5 @@ function benchRequests() {
 function answerFrame(protocol, code, points) {
   const writer = writerOf(code)
   writer.words(new Array(points).fill(0x1234))
-  return protocol.framing.response.write({ route: ownStation, timer: 0 }, 1, 0, writer.take())
+  return protocol.framing.response.write({ ...ownStation, timer: 0 }, 1, 0, writer.take())
 }

@@ -5,6 +5,7 @@ export type { CallOptions } from './client/connection/call'
 export type { ConnectionState } from './client/connection/connection'
 export type { RoundTrip, Statistics } from './client/connection/statistics'
 export type { ConnectionStateName } from './client/connection/supervisor'
+export type { TraceEntry } from './client/connection/trace'
 export type {
   CopyOptions,
   FileData,
@@ -54,7 +55,6 @@ export type {
 export { createMelsecClient, MelsecClient } from './client/melsec/melsec-client'
 export type { RequestExplanation } from './client/melsec/named-request'
 export type { MelsecClientOptions } from './client/melsec/options'
-export type { TraceEntry } from './client/melsec/trace'
 export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'

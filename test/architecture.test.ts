@@ -29,7 +29,7 @@ const ROOMS: Readonly<Record<string, readonly string[]>> = {
   jw: ['errors', 'basics', 'codec', 'link'],
   value: ['errors', 'basics'],
   transport: ['errors', 'basics'],
-  'client/connection': ['errors', 'basics', 'link', 'transport'],
+  'client/connection': ['errors', 'basics', 'codec', 'link', 'transport'],
   'client/item': ['errors', 'basics', 'codec', 'melsec', 'value', 'client/connection'],
   'client/plan': ['errors', 'basics', 'codec', 'link', 'melsec', 'value', 'client/connection', 'client/item'],
   'client/label': [

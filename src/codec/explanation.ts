@@ -1,5 +1,5 @@
 // A frame in words: what the explainers of every protocol build, and how it is printed.
-import { type AnnotatedRow, type AnnotateOptions, annotate, type Fault, showBytes } from './annotate'
+import { type AnnotatedRow, type AnnotateOptions, annotate, type Fault, MASK, showBytes } from './annotate'
 import type { DataCode } from './data-code'
 import type { Message, Shape } from './field'
 
@@ -185,4 +185,13 @@ function piecesOf(shown: string, code: DataCode): readonly string[] {
   const pieces: string[] = []
   for (let at = 0; at < shown.length; at += size) pieces.push(shown.slice(at, at + size).trimEnd())
   return pieces
+}
+
+/** The bytes of a frame without its secrets: asterisks in their place, everything else as it is. */
+export function maskSecrets(bytes: Buffer, explanation: FrameExplanation | undefined): Buffer {
+  const secrets = explanation?.rows.filter((row) => row.secret === true) ?? []
+  if (secrets.length === 0) return bytes
+  const masked = Buffer.from(bytes)
+  for (const { offset, length } of secrets) masked.fill(MASK[0] ?? '*', offset, offset + length)
+  return masked
 }

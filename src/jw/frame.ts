@@ -3,7 +3,7 @@
 import { failAt } from '../codec/codec'
 import type { BodyLength, Framing, RequestFrame, ResponseFrame, Scanned } from '../link/link'
 
-export interface JwHead {
+export type JwHead = {
   readonly command: number
 }
 

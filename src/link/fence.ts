@@ -2,25 +2,22 @@
 // nobody can confuse, a self test with a fresh pattern. A PLC answers in order, so once the pattern has come back
 // nothing of what was asked before is under way any more: no late answer, and no second copy of one.
 import { PlcError } from '../errors'
-import type { BodyLength, Framing, ResponseFrame } from './framing'
+import type { AnswerFraming, Question, ResponseFrame } from './framing'
 
 /** A question with a fresh pattern, and how its answer is known. */
-export interface Echo<Head> {
-  readonly head: Head
-  readonly body: Uint8Array
-  readonly responseLength: BodyLength<Head>
+export interface Echo extends Question {
   /** A quick look: `false` when the bytes cannot be its answer. */
   mayBeOwn(datagram: Buffer): boolean
   /**
    * Whether the frame answers exactly this question (`own`), or one with another pattern (`another`).
    * @throws PlcError when it is the answer to something else
    */
-  read(frame: ResponseFrame<Head>): 'own' | 'another'
+  read(frame: ResponseFrame): 'own' | 'another'
 }
 
-export interface FenceOptions<Head> {
+export interface FenceOptions {
   /** A new question each time: a pattern that comes again proves nothing. */
-  readonly ask: () => Echo<Head>
+  readonly ask: () => Echo
   /** ms after which it is asked once more, because datagrams get lost; doubled as long as nothing comes, because a PLC may be slow. */
   readonly patience: number
   /**
@@ -37,11 +34,11 @@ const ENOUGH = 3
 const ENOUGH_REFUSED = 2
 
 /** It outlives a session: an answer to a request of an earlier one can still come to the same port. */
-export class Fence<Head> {
-  readonly #framing: Framing<Head>
-  readonly #options: FenceOptions<Head>
+export class Fence {
+  readonly #framing: AnswerFraming
+  readonly #options: FenceOptions
   /** Since the last request, the latest last. Only that one proves it: the others may still be refused, one after another. */
-  #asked: Echo<Head>[] = []
+  #asked: Echo[] = []
   /** Answers to something else since then. */
   #strays = 0
   /** Those of them with an end code. */
@@ -49,7 +46,7 @@ export class Fence<Head> {
   /** One answer, whatever it says, to each question so far. */
   #inStep = true
   /** Whose answers prove nothing any more. */
-  #former: Echo<Head>[] = []
+  #former: Echo[] = []
   #askAgainAt = Number.NEGATIVE_INFINITY
   #stands = false
   /** A request has left and its answer has not come: it may come at any time. */
@@ -57,7 +54,7 @@ export class Fence<Head> {
   /** Whether the PLC returns self tests; unknown until it did once, or did not. */
   #echoes: boolean | undefined
 
-  constructor(framing: Framing<Head>, options: FenceOptions<Head>) {
+  constructor(framing: AnswerFraming, options: FenceOptions) {
     this.#framing = framing
     this.#options = options
   }
@@ -112,7 +109,7 @@ export class Fence<Head> {
     if (this.#asked.length > REMEMBERED) this.#asked.shift()
     const unanswered = Math.max(0, this.#asked.length - 1 - this.#strays)
     this.#askAgainAt = now + this.#options.patience * 2 ** unanswered
-    return this.#framing.request.write(echo.head, 0, echo.body)
+    return echo.write(0)
   }
 
   /**
@@ -154,11 +151,11 @@ export class Fence<Head> {
     this.#askAgainAt = Number.NEGATIVE_INFINITY
   }
 
-  #kindOf(echo: Echo<Head>, datagram: Buffer): 'own' | 'another' | 'refusal' | undefined {
+  #kindOf(echo: Echo, datagram: Buffer): 'own' | 'another' | 'refusal' | undefined {
     try {
       const scanned = this.#framing.response.scan(datagram, (head, soFar) => echo.responseLength(head, soFar))
       if (scanned === undefined || scanned.used !== datagram.length) return undefined
-      if (this.#framing.mismatch(echo.head, scanned.frame.head) !== undefined) return undefined
+      if (echo.mismatch(scanned.frame.head) !== undefined) return undefined
       return scanned.frame.endCode === 0 ? echo.read(scanned.frame) : 'refusal'
     } catch (error) {
       // Whatever it is, it is no answer to a self test.

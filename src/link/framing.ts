@@ -2,17 +2,23 @@
 import type { PlcError } from '../errors'
 import type { Scheduled } from './scheduler'
 
+/**
+ * What stands around the body, as numbers by the manuals' names: the route, a command number. Only the protocol that made
+ * a head looks at what is in it; whoever carries frames does not.
+ */
+export type Head = Readonly<Record<string, number | undefined>>
+
 /** A frame that carries a request, as the responder sees it. */
-export interface RequestFrame<Head> {
-  readonly head: Head
+export interface RequestFrame<H = Head> {
+  readonly head: H
   /** Serial number, where the frame has one. */
   readonly serial: number | undefined
   readonly body: Buffer
 }
 
 /** A frame that carries an answer, as the session sees it. */
-export interface ResponseFrame<Head> {
-  readonly head: Head
+export interface ResponseFrame<H = Head> {
+  readonly head: H
   readonly serial: number | undefined
   /** 0 is success. */
   readonly endCode: number
@@ -36,51 +42,64 @@ export interface Scanned<Frame> {
  * The length of the body, for frames that carry none (1E, Sharp JW): asked with the head and the body's bytes so far.
  * `undefined` means: more bytes are needed to tell.
  */
-export type BodyLength<Head> = (head: Head, soFar: Buffer) => number | undefined
+export type BodyLength<H = Head> = (head: H, soFar: Buffer) => number | undefined
 
 /**
- * The layout of a frame around its body: four pure functions.
- * The scans have three answers: a frame; `undefined` when more bytes are needed; a thrown `ProtocolError` when the
- * bytes are no such frame. They never change the bytes and never keep them.
+ * How what a PLC sends is found among the bytes. The scans have three answers: a frame; `undefined` when more bytes are
+ * needed; a thrown `ProtocolError` when the bytes are no such frame. They never change the bytes and never keep them.
  */
-export interface Framing<Head> {
+export interface AnswerFraming<H = Head> {
   readonly name: string
   /** How an answer finds its request: by a serial number in the frame, or only by the order of arrival. */
   readonly correlation: 'serial' | 'order'
   readonly request: {
-    write(head: Head, serial: number, body: Uint8Array): Buffer
-    scan(bytes: Buffer, bodyLength: BodyLength<Head>): Scanned<RequestFrame<Head>> | undefined
+    scan(bytes: Buffer, bodyLength: BodyLength<H>): Scanned<RequestFrame<H>> | undefined
   }
   readonly response: {
-    write(head: Head, serial: number, endCode: number, body: Uint8Array): Buffer
-    scan(bytes: Buffer, bodyLength: BodyLength<Head>): Scanned<ResponseFrame<Head>> | undefined
+    scan(bytes: Buffer, bodyLength: BodyLength<H>): Scanned<ResponseFrame<H>> | undefined
     /**
      * Whether a frame in the place of an answer is one the PLC sends unasked (On-demand). Such frames have the form
      * of a request, so `request.scan` reads them.
      */
     isUnsolicited?(bytes: Buffer): boolean
   }
+}
+
+/** The layout of a frame around its body: four pure functions. */
+export interface Framing<H> extends AnswerFraming<H> {
+  readonly request: AnswerFraming<H>['request'] & {
+    write(head: H, serial: number, body: Uint8Array): Buffer
+  }
+  readonly response: AnswerFraming<H>['response'] & {
+    write(head: H, serial: number, endCode: number, body: Uint8Array): Buffer
+  }
   /** What of the head the answer must repeat and does not, in words; `undefined` when it is the answer's head. */
-  mismatch(asked: Head, answered: Head): string | undefined
+  mismatch(asked: H, answered: Head): string | undefined
+}
+
+/** A question as a frame, and how its answer is known. */
+export interface Question {
+  /** The frame, with this serial number where the frame has one. */
+  write(serial: number): Buffer
+  /** Length of the answer's body, asked only by frames that carry none. */
+  readonly responseLength: BodyLength
+  /** What of its head the answer must repeat and does not, in words; `undefined` when it is the answer's head. */
+  mismatch(answered: Head): string | undefined
 }
 
 /** A request on its way: what the session needs to know about it. */
-export interface Job<Head> extends Scheduled {
-  readonly head: Head
-  readonly body: Uint8Array
+export interface Job extends Question, Scheduled {
   /** Absolute time, on the clock the session is given, after which nobody waits any more. */
   readonly deadline: number
   /** ms it was given in all, waiting included: once sent it may use at least a share of it (`SHARE` in session.ts). */
   readonly allowance?: number
-  /** Length of the answer's body, asked only by frames that carry none. */
-  readonly responseLength: BodyLength<Head>
   /** Sent although nothing proves that earlier answers are not still on their way (see `Fence`): a locked PLC echoes nothing. */
   readonly needsNoProof?: boolean
 }
 
 /** How a job ended. */
-export type Outcome<Head> =
-  | { readonly kind: 'answered'; readonly frame: ResponseFrame<Head> }
+export type Outcome =
+  | { readonly kind: 'answered'; readonly frame: ResponseFrame }
   | { readonly kind: 'timedOut'; readonly sent: boolean }
   | { readonly kind: 'disconnected'; readonly sent: boolean }
   /** Not sent: what must come back before it, so that its answer can be known (see `Fence`), did not in time. */
@@ -90,14 +109,14 @@ export type Outcome<Head> =
   | { readonly kind: 'failed'; readonly error: PlcError }
 
 /** What a session tells its owner. */
-export type SessionEvent<Head, J extends Job<Head> = Job<Head>> =
+export type SessionEvent<J extends Job = Job> =
   | {
       readonly kind: 'done'
       readonly job: J
-      readonly outcome: Outcome<Head>
+      readonly outcome: Outcome
       readonly sentAt: number | undefined
     }
-  | { readonly kind: 'unsolicited'; readonly frame: RequestFrame<Head> }
+  | { readonly kind: 'unsolicited'; readonly frame: RequestFrame }
   /** An answer to a request that was given up: thrown away. */
   | { readonly kind: 'stale'; readonly serial: number | undefined }
   /** While a fence is asked for, an answer to anything else: thrown away. It does not show that the peer takes requests. */

@@ -17,8 +17,8 @@ import {
   writerOf,
 } from '../codec/codec'
 import { type EndCodeError, ProtocolError } from '../errors'
-import type { Exchange } from './exchange'
-import type { Framing, RequestFrame, ResponseFrame } from './framing'
+import { type Exchange, framed } from './exchange'
+import type { Framing, Head, RequestFrame, ResponseFrame } from './framing'
 
 /** A command with its name. */
 export type NamedCommand = Named<Declaration, string>
@@ -26,30 +26,31 @@ export type NamedCommand = Named<Declaration, string>
 const DUMMY = '0'
 
 /** What makes one protocol of this kind different from another. */
-export interface HeadProtocolParts<Head> {
-  readonly framing: Framing<Head>
+export interface HeadProtocolParts<H extends Head> {
+  readonly framing: Framing<H>
   readonly commands: Readonly<Record<string, NamedCommand>>
   readonly code: DataCode
   /** Device form of the value codecs. */
   readonly form: number
-  readonly headOf: (command: NamedCommand) => Head
-  readonly codeOf: (head: Head) => number
+  readonly headOf: (command: NamedCommand) => H
+  /** Of a head as its framing scans it. */
+  readonly codeOf: (head: Head) => number | undefined
   /** The message as it goes into the frame. @throws RequestError for what must not be sent. */
   readonly prepare?: (command: NamedCommand, message: Message) => Message
   /** Characters `0` behind a request, or behind the data of its answer, that stand for nothing. */
   readonly dummies?: (command: NamedCommand, request: Message, side: 'request' | 'response') => number
   /** The error for an end code other than 0. */
-  readonly refusal: (command: NamedCommand, frame: ResponseFrame<Head>) => EndCodeError
+  readonly refusal: (command: NamedCommand, frame: ResponseFrame) => EndCodeError
 }
 
-export class HeadProtocol<Head> {
-  readonly #parts: HeadProtocolParts<Head>
+export class HeadProtocol<H extends Head> {
+  readonly #parts: HeadProtocolParts<H>
 
-  constructor(parts: HeadProtocolParts<Head>) {
+  constructor(parts: HeadProtocolParts<H>) {
     this.#parts = parts
   }
 
-  get framing(): Framing<Head> {
+  get framing(): Framing<H> {
     return this.#parts.framing
   }
 
@@ -57,7 +58,7 @@ export class HeadProtocol<Head> {
   exchange<C extends NamedCommand>(
     command: C,
     message: MessageInput<C['request']>,
-  ): Exchange<Head, MessageOf<C['response']>> {
+  ): Exchange<MessageOf<C['response']>> {
     const { code, form, prepare } = this.#parts
     const writer = writerOf(code, form)
     if (prepare === undefined) encode<C['request']>(command.request, message, writer)
@@ -66,20 +67,20 @@ export class HeadProtocol<Head> {
     // What was sent counts, not an object that the caller may change before the answer comes.
     const context: Context = { shape: command.request, message: decode(command.request, readerOf(code, data, form)) }
     const body = this.#withDummies(data, command, context.message, 'request')
-    return {
+    const asked = {
       title: command.title,
       effect: command.effect,
       message,
-      head: this.#parts.headOf(command),
       body,
       answered: command.answered !== 'no',
-      responseLength: (head) => {
+      responseLength: (head: Head) => {
         this.#checkCommand(command, head)
         const length = measure(command.response, { ascii: code === 'ascii', form, context })
         return length + this.#dummies(command, context.message, 'response')
       },
-      decode: (frame) => this.#decode(command, context, frame),
+      decode: (frame: ResponseFrame) => this.#decode(command, context, frame),
     }
+    return { ...asked, ...framed({ framing: this.#parts.framing, head: this.#parts.headOf(command) }, asked) }
   }
 
   /** Without a length, an answer to another command would be waited for until it is as long as the right one. */
@@ -88,11 +89,11 @@ export class HeadProtocol<Head> {
     if (answered === command.code) return
     throw new ProtocolError(
       'ECHO_MISMATCH',
-      `The answer is to command ${hex(answered, 2)}H, asked was ${hex(command.code, 2)}H.`,
+      `The answer is to ${commandText(answered)}, asked was ${hex(command.code, 2)}H.`,
     )
   }
 
-  #decode<C extends NamedCommand>(command: C, context: Context, frame: ResponseFrame<Head>): MessageOf<C['response']> {
+  #decode<C extends NamedCommand>(command: C, context: Context, frame: ResponseFrame): MessageOf<C['response']> {
     if (frame.endCode !== 0) throw this.#parts.refusal(command, frame)
     const reader = readerOf(this.#parts.code, frame.body, this.#parts.form)
     const message = decode<C['response']>(command.response, reader, context)
@@ -128,7 +129,7 @@ export class HeadProtocol<Head> {
   }
 
   /** The PLC's side: which command with which message a frame is. */
-  readRequest(frame: RequestFrame<Head>): { command: NamedCommand; message: Message } {
+  readRequest(frame: RequestFrame): { command: NamedCommand; message: Message } {
     const command = this.#commandOf(frame.head)
     const reader = readerOf(this.#parts.code, frame.body, this.#parts.form)
     const message = decode(command.request, reader)
@@ -146,8 +147,11 @@ export class HeadProtocol<Head> {
   #commandOf(head: Head): NamedCommand {
     const code = this.#parts.codeOf(head)
     const command = Object.values(this.#parts.commands).find((entry) => entry.code === code)
-    if (command === undefined)
-      throw new ProtocolError('BAD_FIELD', `There is no command ${code.toString(16).toUpperCase()}H.`)
+    if (command === undefined) throw new ProtocolError('BAD_FIELD', `There is no ${commandText(code)}.`)
     return command
   }
+}
+
+function commandText(code: number | undefined): string {
+  return `command ${code === undefined ? 'without a number' : `${hex(code, 2)}H`}`
 }

@@ -1,8 +1,21 @@
 // The public names of this room.
 
-export type { Exchange } from './exchange'
+export { type Exchange, framed } from './exchange'
 export { type Echo, Fence, type FenceOptions } from './fence'
-export type { BodyLength, Framing, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
+export type { FrameExplainer, KnownFrames, ReceivedFrame, SentFrame } from './frame-explainer'
+export type {
+  AnswerFraming,
+  BodyLength,
+  Framing,
+  Head,
+  Job,
+  Outcome,
+  Question,
+  RequestFrame,
+  ResponseFrame,
+  Scanned,
+  SessionEvent,
+} from './framing'
 export { HeadProtocol, type HeadProtocolParts, type NamedCommand } from './head-protocol'
 export { Responder } from './responder'
 export { RoundTrips } from './round-trips'

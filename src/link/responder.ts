@@ -6,14 +6,14 @@ const EMPTY = Buffer.alloc(0)
 /** Longer than any frame of any protocol here. */
 const MAX_FRAME = 65_536
 
-export class Responder<Head> {
-  readonly #framing: Framing<Head>
+export class Responder<H> {
+  readonly #framing: Framing<H>
   readonly #kind: 'stream' | 'datagram'
-  readonly #bodyLength: BodyLength<Head>
+  readonly #bodyLength: BodyLength<H>
   #received: Buffer = EMPTY
 
   /** `bodyLength` is asked only by frames whose requests carry no length (1E, Sharp JW). */
-  constructor(framing: Framing<Head>, kind: 'stream' | 'datagram', bodyLength: BodyLength<Head>) {
+  constructor(framing: Framing<H>, kind: 'stream' | 'datagram', bodyLength: BodyLength<H>) {
     this.#framing = framing
     this.#kind = kind
     this.#bodyLength = bodyLength
@@ -29,17 +29,17 @@ export class Responder<Head> {
    * Bytes that are no such frame are thrown away and nothing is answered: that is what a PLC does with a wrong data
    * code or frame (FX5 communication manual, C06F: "no response"). One datagram is one frame.
    */
-  receive(chunk: Buffer): RequestFrame<Head>[] {
+  receive(chunk: Buffer): RequestFrame<H>[] {
     return this.#kind === 'datagram' ? this.#receiveDatagram(chunk) : this.#receiveStream(chunk)
   }
 
-  #receiveDatagram(datagram: Buffer): RequestFrame<Head>[] {
+  #receiveDatagram(datagram: Buffer): RequestFrame<H>[] {
     const scanned = this.#scan(datagram)
     return scanned?.used === datagram.length ? [scanned.frame] : []
   }
 
-  #receiveStream(chunk: Buffer): RequestFrame<Head>[] {
-    const requests: RequestFrame<Head>[] = []
+  #receiveStream(chunk: Buffer): RequestFrame<H>[] {
+    const requests: RequestFrame<H>[] = []
     let rest = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
     while (rest.length > 0) {
       const scanned = this.#scan(rest)
@@ -53,7 +53,7 @@ export class Responder<Head> {
   }
 
   /** The request at the front; `undefined` when it is not complete, `null` when the bytes can never become one. */
-  #scan(bytes: Buffer): Scanned<RequestFrame<Head>> | undefined | null {
+  #scan(bytes: Buffer): Scanned<RequestFrame<H>> | undefined | null {
     try {
       return this.#framing.request.scan(bytes, this.#bodyLength)
     } catch (error) {
@@ -63,7 +63,7 @@ export class Responder<Head> {
   }
 
   /** The frame that answers `request`. */
-  answer(request: RequestFrame<Head>, endCode: number, body: Uint8Array): Buffer {
+  answer(request: RequestFrame<H>, endCode: number, body: Uint8Array): Buffer {
     return this.#framing.response.write(request.head, request.serial ?? 0, endCode, body)
   }
 }

@@ -9,7 +9,7 @@
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
 import type { Fence } from './fence'
 
-import type { Framing, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
+import type { AnswerFraming, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
 import { RoundTrips } from './round-trips'
 import { Scheduler } from './scheduler'
 import { SerialNumbers } from './serial-numbers'
@@ -41,9 +41,9 @@ interface Pending<J> extends Outgoing {
 }
 
 /** What stands at the front of the received bytes. `unasked`: an answer that belongs to no request. */
-type Found<Head> =
-  | ({ readonly kind: 'answer' } & Scanned<ResponseFrame<Head>>)
-  | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame<Head> }
+type Found =
+  | ({ readonly kind: 'answer' } & Scanned<ResponseFrame>)
+  | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame }
   | { readonly used: number; readonly kind: 'unasked' }
 
 const EMPTY = Buffer.alloc(0)
@@ -56,14 +56,14 @@ const SHARE = 1 / 10
 /** A request that has not waited is sent whatever the round trips were: they may have become shorter. */
 const LARGEST_SHARE = 0.9
 
-export class Session<Head, J extends Job<Head> = Job<Head>> {
-  readonly #framing: Framing<Head>
+export class Session<J extends Job = Job> {
+  readonly #framing: AnswerFraming
   readonly #options: SessionOptions
-  readonly #fence: Fence<Head> | undefined
+  readonly #fence: Fence | undefined
   #pending: Pending<J>[] = []
   readonly #waiting = new Scheduler<J>()
   #output: Outgoing[] = []
-  #events: SessionEvent<Head, J>[] = []
+  #events: SessionEvent<J>[] = []
   #received: Buffer = EMPTY
   /** Stream: what may still follow the last answer. */
   #mayFollow: Buffer = EMPTY
@@ -74,7 +74,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   #dropped = false
 
   /** `fence`: for datagrams where the local port stays. */
-  constructor(framing: Framing<Head>, options: SessionOptions, fence?: Fence<Head>) {
+  constructor(framing: AnswerFraming, options: SessionOptions, fence?: Fence) {
     if (framing.correlation === 'order' && options.window !== 1) {
       throw new RequestError(
         'BAD_OPTION',
@@ -175,7 +175,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   }
 
   /** The next event, or `undefined`. */
-  poll(): SessionEvent<Head, J> | undefined {
+  poll(): SessionEvent<J> | undefined {
     return this.#events.shift()
   }
 
@@ -194,7 +194,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       const entry = {
         job,
         serial,
-        bytes: this.#framing.request.write(job.head, serial, job.body),
+        bytes: job.write(serial),
         sentAt: now,
         sent: false,
       }
@@ -217,7 +217,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     this.#finish(job, this.#whyUnsent(job, waiting), undefined)
   }
 
-  #whyUnsent({ deadline, allowance, needsNoProof }: J, waiting: number): Outcome<Head> {
+  #whyUnsent({ deadline, allowance, needsNoProof }: J, waiting: number): Outcome {
     // While it waited the peer answered others, only not soon enough; otherwise it is silent.
     const isAlive = allowance !== undefined && this.#answeredAt >= deadline - allowance
     if (isAlive) return { kind: 'tooLate', waiting, roundTrip: this.#roundTrips.usual }
@@ -296,7 +296,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
   }
 
   /** The frame at the front, or `undefined` when it is not complete. */
-  #find(bytes: Buffer): Found<Head> | undefined {
+  #find(bytes: Buffer): Found | undefined {
     if (this.#framing.response.isUnsolicited?.(bytes) === true) {
       const unsolicited = this.#framing.request.scan(bytes, () => undefined)
       return unsolicited && { used: unsolicited.used, kind: 'unsolicited', frame: unsolicited.frame }
@@ -311,7 +311,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     return scanned && { kind: 'answer', ...scanned }
   }
 
-  #take(found: Found<Head>, now: number): void {
+  #take(found: Found, now: number): void {
     switch (found.kind) {
       case 'answer':
         this.#attribute(found.frame, now)
@@ -330,7 +330,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     }
   }
 
-  #attribute(frame: ResponseFrame<Head>, now: number): void {
+  #attribute(frame: ResponseFrame, now: number): void {
     const at =
       this.#framing.correlation === 'serial'
         ? this.#pending.findIndex((entry) => entry.serial === frame.serial)
@@ -342,7 +342,7 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
       this.#events.push({ kind: 'stale', serial: frame.serial })
       return
     }
-    const mismatch = this.#framing.mismatch(found.job.head, frame.head)
+    const mismatch = found.job.mismatch(frame.head)
     if (mismatch !== undefined)
       throw new ProtocolError('ECHO_MISMATCH', `The answer is not the request's: ${mismatch}.`)
     this.#pending.splice(at, 1)
@@ -406,13 +406,13 @@ export class Session<Head, J extends Job<Head> = Job<Head>> {
     this.#events.push({ kind: 'drop', error })
   }
 
-  #finish(job: J, outcome: Outcome<Head>, sentAt: number | undefined): void {
+  #finish(job: J, outcome: Outcome, sentAt: number | undefined): void {
     this.#events.push({ kind: 'done', job, outcome, sentAt })
   }
 }
 
 /** Whether the datagram holds what was found and nothing behind it but what may follow. */
-function endsWith(found: Found<unknown>, datagram: Buffer): boolean {
+function endsWith(found: Found, datagram: Buffer): boolean {
   const rest = datagram.subarray(found.used)
   return rest.length === 0 || (found.kind === 'answer' && found.mayFollow?.equals(rest) === true)
 }

@@ -13,7 +13,7 @@ import {
   writerOf,
 } from '../codec/codec'
 import { EndCodeError, ProtocolError, RequestError } from '../errors'
-import type { Exchange, Framing, RequestFrame, ResponseFrame } from '../link/link'
+import { type Exchange, type Framing, framed, type Head, type RequestFrame, type ResponseFrame } from '../link/link'
 import type { Command, RequestOf, ResponseOf } from './commands/command'
 import { type CommandName, commands } from './commands/commands'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device/codec'
@@ -27,14 +27,10 @@ import { describeRoute } from './frame/route'
 import type { Profile } from './profiles/profile'
 import { checkTarget } from './target'
 
-export interface MelsecProtocolOptions<Head> {
-  /** `body`: what stands around the data; default as in 3E and 4E. */
-  readonly framing: Framing<Head> & { readonly body?: BodyLayout }
-  /** Head of every request: route and monitoring timer. */
-  readonly head: Head
-  /** Head of what is for the connected station only (`to` of the declaration); default `head`, where that is the route. */
-  readonly connectedHead?: Head
-  /** Module I/O number of its route, for commands that do not take every one. */
+export interface CommandSetOptions {
+  /** What stands around the data in a body; default as in 3E and 4E. */
+  readonly body?: BodyLayout
+  /** Module I/O number of the route, for commands that do not take every one. */
   readonly moduleIo?: number
   readonly profile: Profile
   readonly code: DataCode
@@ -49,6 +45,15 @@ export interface MelsecProtocolOptions<Head> {
    * answer tells which the PLC took; so ZR is refused in ASCII code until this says it.
    */
   readonly asciiZr?: 'decimal' | 'hexadecimal' | undefined
+}
+
+export interface MelsecProtocolOptions<H extends Head> extends Omit<CommandSetOptions, 'body'> {
+  /** `body`: what stands around the data; default as in 3E and 4E. */
+  readonly framing: Framing<H> & { readonly body?: BodyLayout }
+  /** Head of every request: route and monitoring timer. */
+  readonly head: H
+  /** Head of what is for the connected station only (`to` of the declaration); default `head`, where that is the route. */
+  readonly connectedHead?: H
 }
 
 /** What a call may say beside the message. */
@@ -82,7 +87,7 @@ interface UnknownDigits {
   readonly message: string
 }
 
-function unknownDigits(options: MelsecProtocolOptions<unknown>): UnknownDigits[] {
+function unknownDigits(options: CommandSetOptions): UnknownDigits[] {
   const { code, profile, asciiXy, asciiZr } = options
   const unknown: UnknownDigits[] = []
   if (code !== 'ascii') return unknown
@@ -101,31 +106,26 @@ function unknownDigits(options: MelsecProtocolOptions<unknown>): UnknownDigits[]
   return unknown
 }
 
-/** What a client needs of a protocol: requests of the SLMP set ready to be sent, in whatever frame. */
-export type ClientProtocol<Head> = Pick<MelsecProtocol<Head>, 'framing' | 'profile' | 'code' | 'exchange'>
+/** A request without its frame. */
+interface Asked<T> extends Omit<Exchange<T>, 'write' | 'mismatch' | 'answerBody'> {}
 
-export class MelsecProtocol<Head> {
-  readonly framing: Framing<Head>
+/** The commands as bodies, without frames: from both sides. */
+export class SlmpCommandSet {
   readonly profile: Profile
   readonly code: DataCode
   /** Bytes in front of the data of a request: command, subcommand, fixed values. */
   readonly dataAt: number
-  readonly #head: Head
-  readonly #connectedHead: Head
   readonly #moduleIo: number | undefined
   /** Form bits that are settings of the port and not part of the subcommand. */
   readonly #digitBits: number
   readonly #unknownDigits: readonly UnknownDigits[]
   readonly #layout: BodyLayout
 
-  constructor(options: MelsecProtocolOptions<Head>) {
-    this.framing = options.framing
-    this.#layout = options.framing.body ?? plainBody
+  constructor(options: CommandSetOptions) {
+    this.#layout = options.body ?? plainBody
     this.dataAt = measure({ ...commandFields, ...this.#layout.reserved }, { ascii: options.code === 'ascii', form: 0 })
     this.profile = options.profile
     this.code = options.code
-    this.#head = options.head
-    this.#connectedHead = options.connectedHead ?? options.head
     this.#moduleIo = options.moduleIo
     this.#digitBits =
       (options.asciiXy === 'octal' ? FORM_XY_OCTAL : 0) | (options.asciiZr === 'hexadecimal' ? FORM_ZR_HEX : 0)
@@ -133,14 +133,14 @@ export class MelsecProtocol<Head> {
   }
 
   /**
-   * A request ready to be sent. Everything that cannot be sent is refused here.
+   * The body of a request. Everything that cannot be sent is refused here.
    * @throws RequestError with what is wrong, where, and what to do.
    */
-  exchange<C extends Command>(
+  protected asked<C extends Command>(
     command: C,
     message: RequestOf<C>,
-    options: ExchangeOptions = {},
-  ): Exchange<Head, ResponseOf<C>> {
+    options: ExchangeOptions,
+  ): Asked<ResponseOf<C>> {
     const bag: Message = message
     const form = this.#formOf(command, bag, options)
     checkLimits(this.profile, command.name as CommandName, form, this.code, bag)
@@ -160,7 +160,6 @@ export class MelsecProtocol<Head> {
       title: command.title,
       effect: command.effect,
       message: sent,
-      head: command.to === 'connected' ? this.#connectedHead : this.#head,
       body,
       answered: command.answered !== 'no',
       responseLength: () => measure(command.response, { ascii: this.code === 'ascii', form: bits, context }),
@@ -202,7 +201,7 @@ export class MelsecProtocol<Head> {
     subcommand: number,
     form: number,
     context: Context,
-    frame: ResponseFrame<Head>,
+    frame: ResponseFrame,
   ): ResponseOf<C> {
     if (frame.endCode !== 0) throw this.#refusal(command, subcommand, frame)
     const reader = readerOf(this.code, frame.body, form)
@@ -226,7 +225,7 @@ export class MelsecProtocol<Head> {
     decode(this.#layout.reserved, reader)
   }
 
-  #refusal(command: Command, subcommand: number, frame: ResponseFrame<Head>): EndCodeError {
+  #refusal(command: Command, subcommand: number, frame: ResponseFrame): EndCodeError {
     const information = this.#errorInformation(frame.body)
     // Devices that shorten the error information still say in an echo which request they refuse.
     if (information === undefined && this.#layout.echoed && frame.body.length >= this.dataAt) {
@@ -264,7 +263,7 @@ export class MelsecProtocol<Head> {
    * The PLC's side: which command with which message a body is.
    * @throws ProtocolError when the message does not fit the command (a CPU answers an end code to it).
    */
-  readRequest(frame: RequestFrame<Head>): ReceivedRequest | UnknownRequest {
+  readRequest(frame: Pick<RequestFrame, 'body'>): ReceivedRequest | UnknownRequest {
     const head = readerOf(this.code, frame.body)
     const code = head.uint(2)
     const subcommand = head.uint(2)
@@ -301,6 +300,39 @@ export class MelsecProtocol<Head> {
     const writer = writerOf(this.code)
     encode(this.#layout.errorInformation, information, writer)
     return writer.take()
+  }
+}
+
+/** The command set in a frame: what a client sends and reads. */
+export class MelsecProtocol<H extends Head> extends SlmpCommandSet {
+  readonly framing: Framing<H>
+  readonly #head: H
+  readonly #connectedHead: H
+
+  constructor({ framing, head, connectedHead = head, ...options }: MelsecProtocolOptions<H>) {
+    super(framing.body === undefined ? options : { ...options, body: framing.body })
+    this.framing = framing
+    this.#head = head
+    this.#connectedHead = connectedHead
+  }
+
+  /**
+   * A request ready to be sent. Everything that cannot be sent is refused here.
+   * @throws RequestError with what is wrong, where, and what to do.
+   */
+  exchange<C extends Command>(
+    command: C,
+    message: RequestOf<C>,
+    options: ExchangeOptions = {},
+  ): Exchange<ResponseOf<C>> {
+    const asked = this.asked(command, message, options)
+    const head = command.to === 'connected' ? this.#connectedHead : this.#head
+    return { ...asked, ...framed({ framing: this.framing, head }, asked) }
+  }
+
+  /** Bytes of the frame of an answer with this body. */
+  answerBytes(body: number): number {
+    return this.framing.response.write(this.#head, 0, 0, Buffer.alloc(body)).length
   }
 }
 

@@ -4,11 +4,11 @@ import { PlcError } from '../errors'
 import type { BodyLength, Framing, RequestFrame, Scanned } from '../link/link'
 import { frame1e, type Head1e } from '../melsec/frame/frame-1e'
 import { type FrameName, frameFacts, type SlmpFrameName } from '../melsec/frame/frames'
-import { frame3e, type Head3e, type SlmpFraming } from '../melsec/frame/slmp-frame'
+import { type SlmpFraming, type SlmpHead, slmpFraming } from '../melsec/frame/slmp-frame'
 
 /** A head that says in which frame it came, so that the answer goes out in the same one. */
 export type AnyHead =
-  | { readonly frame: SlmpFrameName; readonly head: Head3e }
+  | { readonly frame: SlmpFrameName; readonly head: SlmpHead }
   | { readonly frame: '1E'; readonly head: Head1e }
 
 /** Subheaders of 1E requests go up to this; those of 3E, 4E and station extension are 50, 54 and 68. */
@@ -75,8 +75,8 @@ export function anyFrame(
 
 /** The framing of each frame that the code has. */
 function slmpFramings(code: DataCode): (frame: SlmpFrameName) => SlmpFraming {
-  const framings = { '3E': frame3e('3E', code), '4E': frame3e('4E', code) }
-  const extension = frameFacts.ext.codes.includes(code) ? frame3e('ext', code) : undefined
+  const framings = { '3E': slmpFraming('3E', code), '4E': slmpFraming('4E', code) }
+  const extension = frameFacts.ext.codes.includes(code) ? slmpFraming('ext', code) : undefined
   return (frame) => {
     if (frame !== 'ext') return framings[frame]
     if (extension === undefined) throw new TypeError(`a port in ${code} code takes no station extension frame`)

@@ -224,7 +224,7 @@ export class SimulatedConnection {
     const { ports, plc, faults } = this.#shared
     const { frame, command, subcommand } = work.received
     if (frame.head.frame === '1E') return ports.aCompatible.errorBody(frame.head.head.command, endCode, abnormal)
-    const { route } = frame.head.head
+    const { timer: _timer, ...route } = frame.head.head
     const station = routeRefusal(plc.profile, route) === undefined ? route : own(route)
     const body = slmpOf(ports, frame.head.frame).writeErrorInformation({ ...station, command, subcommand })
     const short = faults.take('shortError', work)
@@ -241,7 +241,7 @@ export class SimulatedConnection {
     const elsewhere = frame.head.frame === '1E' ? undefined : faults.take('wrongRoute', work)
     if (elsewhere !== undefined && frame.head.frame !== '1E') {
       const { head } = frame.head
-      frame = { ...frame, head: { ...frame.head, head: { ...head, route: { ...head.route, ...elsewhere } } } }
+      frame = { ...frame, head: { ...frame.head, head: { ...head, ...elsewhere } } }
     }
     return this.#responder.answer(frame, endCode, body)
   }

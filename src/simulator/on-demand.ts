@@ -3,7 +3,7 @@ import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import { bytesOfWords } from '../melsec/commands/on-demand'
 import { ownStation } from '../melsec/frame/route'
-import type { Head3e } from '../melsec/frame/slmp-frame'
+import type { SlmpHead } from '../melsec/frame/slmp-frame'
 import { writeOnDemand } from '../melsec/on-demand'
 import type { FrameName } from '../melsec/profiles/profile'
 import type { AnyHead } from './any-frame'
@@ -49,6 +49,6 @@ export function chosen<C extends { readonly id: number }>(all: Iterable<C>, { co
 }
 
 /** What stands in front of a body that nobody asked for. A 1E frame cannot carry one. */
-export function unaskedHead(frame: FrameName): Extract<AnyHead, { readonly head: Head3e }> | undefined {
-  return frame === '1E' ? undefined : { frame, head: { route: ownStation, timer: 0 } }
+export function unaskedHead(frame: FrameName): Extract<AnyHead, { readonly head: SlmpHead }> | undefined {
+  return frame === '1E' ? undefined : { frame, head: { ...ownStation, timer: 0 } }
 }

@@ -1,9 +1,8 @@
 // The PLC behind the wire: what it answers to a request, without frames, connections or time.
 import type { CommandName } from '../melsec/commands/commands'
-import type { Head3e } from '../melsec/frame/slmp-frame'
+import type { Route } from '../melsec/frame/route'
 import type { Profile } from '../melsec/profiles/profile'
-import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
-import type { AnyHead } from './any-frame'
+import type { ReceivedRequest, SlmpCommandSet } from '../melsec/protocol'
 import { ExtendUnits, OwnBuffer } from './buffer-memory'
 import { checkRequest, routeRefusal } from './check'
 import { Cpu, type StateChange } from './cpu'
@@ -102,7 +101,7 @@ export class Plc {
     }
   }
 
-  #answer(protocol: MelsecProtocol<AnyHead>, { route }: Head3e, { request }: Received, call: Call): Answer {
+  #answer(protocol: SlmpCommandSet, route: Route, { request }: Received, call: Call): Answer {
     const wrongRoute = routeRefusal(this.profile, route)
     if (wrongRoute !== undefined) {
       if (this.#otherStations === 'silence') return { kind: 'none' }
@@ -139,7 +138,7 @@ export class Plc {
     this.cpu.up()
   }
 
-  #carryOut(protocol: MelsecProtocol<AnyHead>, request: ReceivedRequest, call: Call): Answer {
+  #carryOut(protocol: SlmpCommandSet, request: ReceivedRequest, call: Call): Answer {
     const { command } = request
     const response = handle(request, call)
     if (command.answered === 'no') return { kind: 'none' }

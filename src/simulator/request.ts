@@ -9,7 +9,7 @@ import { limitsOf } from '../melsec/device/limit'
 import { setReset } from '../melsec/device/set-reset'
 import type { Head1e } from '../melsec/frame/frame-1e'
 import type { SlmpFrameName } from '../melsec/frame/frames'
-import type { MelsecProtocol, ReceivedRequest } from '../melsec/protocol'
+import type { ReceivedRequest, SlmpCommandSet } from '../melsec/protocol'
 import type { ACompatiblePort } from './a-compatible-port'
 import type { AnyHead } from './any-frame'
 import { Refusal, requestErrors } from './refusal'
@@ -29,14 +29,14 @@ export interface Received {
 /** The protocols of a port. */
 export interface Ports {
   /** 3E and 4E. */
-  readonly slmp: MelsecProtocol<AnyHead>
+  readonly slmp: SlmpCommandSet
   /** The same commands in the station extension frame. */
-  readonly extended: MelsecProtocol<AnyHead>
+  readonly extended: SlmpCommandSet
   readonly aCompatible: ACompatiblePort
 }
 
 /** The protocol of the SLMP set for a frame. */
-export function slmpOf({ slmp, extended }: Ports, frame: SlmpFrameName): MelsecProtocol<AnyHead> {
+export function slmpOf({ slmp, extended }: Ports, frame: SlmpFrameName): SlmpCommandSet {
   return frame === 'ext' ? extended : slmp
 }
 
@@ -60,7 +60,7 @@ function receive1e(port: ACompatiblePort, frame: RequestFrame<AnyHead>, head: He
   }
 }
 
-function codesOf(protocol: MelsecProtocol<AnyHead>, body: Buffer): { command: number; subcommand: number } {
+function codesOf(protocol: SlmpCommandSet, body: Buffer): { command: number; subcommand: number } {
   const reader = readerOf(protocol.code, body)
   try {
     return { command: reader.uint(2), subcommand: reader.uint(2) }
@@ -71,7 +71,7 @@ function codesOf(protocol: MelsecProtocol<AnyHead>, body: Buffer): { command: nu
 }
 
 function requestOf(
-  protocol: MelsecProtocol<AnyHead>,
+  protocol: SlmpCommandSet,
   frame: RequestFrame<AnyHead>,
   code: number,
   subcommand: number,
@@ -87,13 +87,7 @@ function requestOf(
 }
 
 /** The end code for a request whose data are not what its command says. */
-function endCodeOf(
-  protocol: MelsecProtocol<AnyHead>,
-  body: Buffer,
-  code: number,
-  subcommand: number,
-  error: PlcError,
-): number {
+function endCodeOf(protocol: SlmpCommandSet, body: Buffer, code: number, subcommand: number, error: PlcError): number {
   const { refusals } = protocol.profile
   if (error.code === 'BAD_DIGIT') return requestErrors.asciiConversion
   if (error.code === 'TRUNCATED' || error.code === 'TRAILING') return refusals.length

@@ -2,9 +2,8 @@
 import { ClosedError } from '../errors'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'
-import { ownStation } from '../melsec/frame/route'
 import type { Profile } from '../melsec/profiles/profile'
-import { MelsecProtocol } from '../melsec/protocol'
+import { SlmpCommandSet } from '../melsec/protocol'
 import type { Clock } from '../transport/clock'
 import { listenTcp } from '../transport/listen-tcp'
 import { listenUdp } from '../transport/listen-udp'
@@ -12,7 +11,6 @@ import { listenMemory, type MemoryListener, type MemoryOptions } from '../transp
 import type { Listener, OpenTransport, ServerConnection } from '../transport/transport'
 import type { PlcValue, ValueFormat } from '../value/value'
 import { ACompatiblePort } from './a-compatible-port'
-import { type AnyHead, anyFrame } from './any-frame'
 import { type RequestEvent, type Shared, SimulatedConnection } from './connection'
 import type { Cpu, StateChange } from './cpu'
 import type { ErrorLog } from './error-log'
@@ -269,12 +267,9 @@ class Simulator implements PlcSimulator {
 
   #share(): Shared {
     const { profile, clock, code, frames, asciiXy, asciiZr, oddBits, scanTime } = this.#settings
-    const framing = anyFrame(frames, code, () => {})
-    // The head of requests; a PLC sends none.
-    const head: AnyHead = { frame: '3E', head: { route: ownStation, timer: 0 } }
-    const given = { head, profile, code, asciiXy, asciiZr }
-    const slmp = new MelsecProtocol<AnyHead>({ ...given, framing })
-    const extended = new MelsecProtocol<AnyHead>({ ...given, framing: { ...framing, body: bodies.ext } })
+    const given = { profile, code, asciiXy, asciiZr }
+    const slmp = new SlmpCommandSet(given)
+    const extended = new SlmpCommandSet({ ...given, body: bodies.ext })
     return {
       plc: this.#plc,
       ports: { slmp, extended, aCompatible: new ACompatiblePort({ profile, code, asciiXy, oddBits }) },

@@ -1,7 +1,7 @@
 /** A connection to a scripted PLC in memory, with a clock made of numbers: nothing happens unless the test says so. */
 import { Connection, type ConnectionOptions, type ConnectionState } from '../../src/client/connection/connection'
 import type { PlcError } from '../../src/errors'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { listenMemory } from '../../src/transport/memory'
 import type { OpenTransport, Transport } from '../../src/transport/transport'
 import { manualClock } from '../support/manual-clock'
@@ -9,7 +9,7 @@ import { exchanges, type Frame, ScriptedPlc } from './scripted-plc'
 
 export type Kind = 'stream' | 'datagram'
 
-export interface BenchOptions extends Partial<ConnectionOptions<Head3e>> {
+export interface BenchOptions extends Partial<ConnectionOptions> {
   readonly kind?: Kind
   readonly frame?: Frame
   /** As with a local port that the user fixed: it cannot be renewed. */
@@ -23,7 +23,7 @@ export class Bench {
   readonly framing
   readonly plc: ScriptedPlc
   readonly memory
-  readonly connection: Connection<Head3e>
+  readonly connection: Connection
   readonly ask
   readonly states: ConnectionState[] = []
   readonly unsolicited: string[] = []
@@ -32,11 +32,11 @@ export class Bench {
   readonly #tracked: Tracked<unknown>[] = []
 
   constructor({ kind = 'stream', frame = '3E', fixedPort = false, ...options }: BenchOptions = {}) {
-    this.framing = frame3e(frame, 'binary')
+    this.framing = slmpFraming(frame, 'binary')
     this.plc = new ScriptedPlc(frame, kind)
     this.memory = listenMemory({ kind, delivery: 'manual' }, this.plc.accept)
     this.ask = exchanges(frame)
-    this.connection = new Connection<Head3e>({
+    this.connection = new Connection({
       framing: this.framing,
       openTransport: this.#openTransport(fixedPort),
       clock: this.clock,
@@ -110,11 +110,11 @@ export class Bench {
     return tracked
   }
 
-  read(number: number, options?: Parameters<Connection<Head3e>['request']>[1]) {
+  read(number: number, options?: Parameters<Connection['request']>[1]) {
     return this.follow(this.connection.request(this.ask.read(number), options))
   }
 
-  write(number: number, value: number, options?: Parameters<Connection<Head3e>['request']>[1]) {
+  write(number: number, value: number, options?: Parameters<Connection['request']>[1]) {
     return this.follow(this.connection.request(this.ask.write(number, value), options))
   }
 

@@ -118,7 +118,7 @@ describe.each(everyLink)('listeners, $frame by $kind', (link) => {
   })
 })
 
-const ownHead = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
+const ownHead = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 0 }
 
 test('a connection is lost once, however much is wrong on it', async () => {
   const bench = await Bench.connected({ frame: '4E', inFlight: 2 })

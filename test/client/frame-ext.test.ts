@@ -2,8 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { createMelsecClient, type MelsecClientOptions } from '../../src/index'
 import { Responder } from '../../src/link/link'
-import type { Route } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { listenTcp } from '../../src/transport/listen-tcp'
@@ -83,11 +82,11 @@ describe.each(TRANSPORTS)('the simulated PLC over %s', (transport) => {
 // --- a PLC that is station 300 of network 1, and answers what the test says
 
 const profile = resolveProfile('iq-r')
-const framing = frame3e('ext', 'binary')
+const framing = slmpFraming('ext', 'binary')
 const route = { network: 1, station: 300 }
 
 interface Asked {
-  readonly head: Head3e
+  readonly head: SlmpHead
   readonly serial: number
   readonly body: Buffer
 }
@@ -102,13 +101,13 @@ async function withStation(
   run: (options: MelsecClientOptions) => Promise<void>,
 ): Promise<void> {
   const kind = transport === 'tcp' ? 'stream' : 'datagram'
-  const head = { route: { network: 0, station: 255, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
+  const head = { network: 0, station: 255, moduleIo: 0x3ff, multidrop: 0, timer: 0 }
   const protocol = new MelsecProtocol({ framing, head, profile, code: 'binary' })
   const accept = (peer: ServerConnection) => {
     const responder = new Responder(framing, kind, () => undefined)
     peer.onReceived = (bytes) => {
       for (const { head: asked, serial = 0, body } of responder.receive(bytes)) {
-        const request = protocol.readRequest({ head: asked, serial, body })
+        const request = protocol.readRequest({ body })
         const isProbe = 'name' in request && request.name === 'readTypeName'
         const given = { head: asked, serial, body }
         // R04CPU, padded to 16 characters, 4800H
@@ -142,22 +141,22 @@ async function withClient(
 
 describe.each(TRANSPORTS)('station 300 over %s', (transport) => {
   test('is asked by station 124 with its number in the extension field, and believed', () => {
-    const asked: Route[] = []
+    const asked: SlmpHead[] = []
     const script = (request: Asked) => {
-      asked.push(request.head.route)
+      asked.push(request.head)
       return [answering(request, '3930')]
     }
     return withClient(transport, script, async (client) => {
       expect(await client.read('D100')).toBe(12345)
-      expect(asked).toEqual([{ network: 1, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 300 }])
+      const head = { network: 1, station: 124, moduleIo: 0x3ff, multidrop: 0, extensionStation: 300 }
+      expect(asked).toMatchObject([head])
     })
   })
 
   const wrong: readonly (readonly [string, (asked: Asked) => Buffer, string])[] = [
     [
       'another extension station',
-      ({ head, ...rest }) =>
-        answering({ ...rest, head: { ...head, route: { ...head.route, extensionStation: 301 } } }, '3930'),
+      ({ head, ...rest }) => answering({ ...rest, head: { ...head, extensionStation: 301 } }, '3930'),
       'extensionStation is 301, asked 300',
     ],
     [

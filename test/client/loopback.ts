@@ -2,7 +2,7 @@
 import { Connection, type ConnectionState } from '../../src/client/connection/connection'
 import { explainSilence } from '../../src/client/melsec/diagnosis'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { realClock } from '../../src/transport/clock'
 import { listenTcp } from '../../src/transport/listen-tcp'
 import { listenUdp } from '../../src/transport/listen-udp'
@@ -26,7 +26,7 @@ type Transport = 'tcp' | 'udp'
 export class Loopback {
   readonly ask
   readonly framing
-  readonly connection: Connection<Head3e>
+  readonly connection: Connection
   #waiting: { readonly name: string; readonly resolve: () => void }[] = []
 
   private constructor(
@@ -37,7 +37,7 @@ export class Loopback {
     private listener: Listener,
   ) {
     this.ask = exchanges(frame)
-    this.framing = frame3e(frame, 'binary')
+    this.framing = slmpFraming(frame, 'binary')
     this.connection = this.#connection()
   }
 
@@ -49,13 +49,13 @@ export class Loopback {
     return started
   }
 
-  #connection(): Connection<Head3e> {
+  #connection(): Connection {
     const { transport, frame, framing } = this
     const { timeout = 5000, inFlight = 1 } = this.options
     const { port } = this.listener
     const endpoint = { host: '127.0.0.1', port }
     const settings = { transport, port, frame, code: 'binary', route: ownStation } as const
-    return new Connection<Head3e>({
+    return new Connection({
       framing,
       openTransport: transport === 'tcp' ? tcpTransport(endpoint) : udpTransport(endpoint),
       clock: realClock,
@@ -88,7 +88,7 @@ export class Loopback {
   }
 
   /** Another client of the same PLC. */
-  another(): { readonly connection: Connection<Head3e> } {
+  another(): { readonly connection: Connection } {
     return { connection: this.#connection() }
   }
 

@@ -12,7 +12,7 @@ import {
   type UnsolicitedFrame,
 } from '../../src/index'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { realClock } from '../../src/transport/clock'
 import { brief, clientOptions, failureOf, kind, links, nextState, until, withLine } from './line'
 
@@ -402,7 +402,7 @@ describe('events', () => {
         const told: UnsolicitedFrame[] = []
         const stop = client.on('unsolicited', (unsolicited) => told.push(unsolicited))
         const body = Buffer.from(frame === 'ext' ? '012100000000000000000102' : '012100000102', 'hex')
-        const onDemand = frame3e(frame, 'binary').request.write({ route: ownStation, timer: 0 }, 0, body)
+        const onDemand = slmpFraming(frame, 'binary').request.write({ ...ownStation, timer: 0 }, 0, body)
         const reading = client.read('D0')
         inject(onDemand)
         expect(await reading).toBe(5)

@@ -13,7 +13,7 @@ import {
   type UnsolicitedFrame,
 } from '../../src/index'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { hex, ON_DEMAND_DATA, ON_DEMAND_WORDS, onDemandFrames, text } from '../melsec/on-demand-frames'
 import { failureOf } from './line'
 
@@ -169,7 +169,7 @@ test('a listener that throws takes nothing from the others', () =>
     client.on('unsolicited', () => {
       throw new Error('a mistake of the program')
     })
-    inject(frame3e('4E', 'binary').request.write({ route: ownStation, timer: 0 }, 1, hex('01210000')))
+    inject(slmpFraming('4E', 'binary').request.write({ ...ownStation, timer: 0 }, 1, hex('01210000')))
     expect([onDemand.length, unsolicited.length]).toEqual([1, 1])
     expect(warned.mock.calls.map(([message]) => String(message))).toEqual([
       expect.stringMatching(/event unsolicited failed.*a mistake of the program/),

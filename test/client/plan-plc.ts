@@ -9,7 +9,7 @@ import { formatDevice } from '../../src/melsec/device/address'
 import { type DeviceAddress, deviceInfo } from '../../src/melsec/device/device'
 import { brokenLimit, type Measurable } from '../../src/melsec/device/limit'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import type { ProfileId, ProfileOverrides } from '../../src/melsec/profiles/profile'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
@@ -18,10 +18,10 @@ export function protocolOf(
   id: ProfileId,
   code: DataCode = 'binary',
   overrides?: ProfileOverrides,
-): MelsecProtocol<Head3e> {
+): MelsecProtocol<SlmpHead> {
   return new MelsecProtocol({
-    framing: frame3e('3E', code),
-    head: { route: ownStation, timer: 16 },
+    framing: slmpFraming('3E', code),
+    head: { ...ownStation, timer: 16 },
     profile: resolveProfile(id, overrides),
     code,
     asciiXy: 'hexadecimal',
@@ -30,7 +30,7 @@ export function protocolOf(
 }
 
 /** Items as the client parses them for a profile. */
-export function items(protocol: MelsecProtocol<Head3e>, texts: readonly string[]): (ParsedItem | RefusedItem)[] {
+export function items(protocol: MelsecProtocol<SlmpHead>, texts: readonly string[]): (ParsedItem | RefusedItem)[] {
   return texts.map((text) => tryParseItem(text, { xyRadix: protocol.profile.xyRadix }))
 }
 
@@ -56,17 +56,16 @@ export class PlanPlc {
   readonly #words = new Map<string, number>()
   readonly #bits = new Map<string, boolean>()
 
-  constructor(readonly protocol: MelsecProtocol<Head3e>) {}
+  constructor(readonly protocol: MelsecProtocol<SlmpHead>) {}
 
   get names(): CommandName[] {
     return this.seen.map(({ name }) => name)
   }
 
   /** Sends one request and reads its answer as the client does; writes show in the maps. */
-  readonly send: SendExchange<Head3e> = async <T>(exchange: Exchange<Head3e, T>): Promise<T> => {
+  readonly send: SendExchange = async <T>(exchange: Exchange<T>): Promise<T> => {
     await Promise.resolve()
-    const { head, body } = exchange
-    const request = this.protocol.readRequest({ head, serial: undefined, body })
+    const request = this.protocol.readRequest(exchange)
     if ('unknown' in request) throw new Error('the planner sent an unknown command')
     const { name, message, form } = request
     this.seen.push({ name, message })
@@ -76,8 +75,13 @@ export class PlanPlc {
     if (broken !== undefined) throw new Error(`${name} breaks the limit ${broken.limit.max}: ${broken.measured}`)
     const answer = this.#execute(name, message)
     if (typeof answer === 'number')
-      return exchange.decode({ head, serial: undefined, endCode: answer, body: Buffer.alloc(0) })
-    return exchange.decode({ head, serial: undefined, endCode: 0, body: this.protocol.writeResponse(request, answer) })
+      return exchange.decode({ head: {}, serial: undefined, endCode: answer, body: Buffer.alloc(0) })
+    return exchange.decode({
+      head: {},
+      serial: undefined,
+      endCode: 0,
+      body: this.protocol.writeResponse(request, answer),
+    })
   }
 
   setWord(text: string, value: number): void {

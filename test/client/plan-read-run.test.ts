@@ -5,7 +5,6 @@ import type { ReadResult } from '../../src/client/item/item-value'
 import { type DeviceRead, planRead } from '../../src/client/plan/read'
 import type { SendExchange } from '../../src/client/plan/request'
 import { ConnectionError, EndCodeError, TimeoutError } from '../../src/errors'
-import type { Head3e } from '../../src/melsec/frame/slmp-frame'
 import { expectedValue, itemText, modifiedText } from './plan-arbitrary'
 import { goodValue, items, PlanPlc, protocolOf } from './plan-plc'
 
@@ -16,8 +15,8 @@ const LOCKED = 0xc201
 
 interface Bench {
   readonly plc: PlanPlc
-  readonly plan: DeviceRead<Head3e>
-  run(send?: SendExchange<Head3e>): Promise<ReadResult[]>
+  readonly plan: DeviceRead
+  run(send?: SendExchange): Promise<ReadResult[]>
   /** Requests since the last call. */
   requests(): number
 }
@@ -286,7 +285,7 @@ describe('a refused command', () => {
     const { plc, run, requests } = bench(range(90, (i) => `D${100 * i}`))
     // A CPU that takes fewer points than the manual says.
     const most = 30
-    const send: SendExchange<Head3e> = async (exchange) => {
+    const send: SendExchange = async (exchange) => {
       const { words } = exchange.message as { words?: readonly unknown[] }
       plc.refuse = () => ((words?.length ?? 0) > most ? 0xc054 : 0)
       return plc.send(exchange)

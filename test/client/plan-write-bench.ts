@@ -5,7 +5,6 @@ import type { SendExchange } from '../../src/client/plan/request'
 import { type DeviceWrite, planWrite, type WriteOptions, type WriteResult } from '../../src/client/plan/write'
 import type { DataCode } from '../../src/codec/codec'
 import { EndCodeError, type PlcError } from '../../src/errors'
-import type { Head3e } from '../../src/melsec/frame/slmp-frame'
 import type { ProfileId, ProfileOverrides } from '../../src/melsec/profiles/profile'
 import type { PlcValue } from '../../src/value/value'
 import { expectedValue } from './plan-arbitrary'
@@ -19,8 +18,8 @@ export interface Setting extends WriteOptions {
 
 export interface Bench {
   readonly plc: PlanPlc
-  readonly plan: DeviceWrite<Head3e>
-  run(send?: SendExchange<Head3e>): Promise<WriteResult[]>
+  readonly plan: DeviceWrite
+  run(send?: SendExchange): Promise<WriteResult[]>
   texts(): string[]
   value(text: string): PlcValue | PlcValue[]
 }

@@ -8,7 +8,7 @@ import type { RequestFrame } from '../../src/link/link'
 import { Responder } from '../../src/link/link'
 import { commands } from '../../src/melsec/commands/commands'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import type { ServerConnection } from '../../src/transport/transport'
@@ -21,7 +21,7 @@ export interface Asked {
   readonly name: string
   /** First device of a read or write. */
   readonly device: number
-  readonly frame: RequestFrame<Head3e>
+  readonly frame: RequestFrame<SlmpHead>
   readonly peer: ServerConnection
   /** The right answer; a write is carried out when it is called. */
   answer(): Buffer
@@ -35,9 +35,9 @@ export type Script = (asked: Asked) => void
 export const replying: Script = (asked) => asked.reply()
 export const silent: Script = () => {}
 
-export function protocolOf(frame: Frame, code: 'binary' | 'ascii' = 'binary'): MelsecProtocol<Head3e> {
-  const head = { route: ownStation, timer: 0 }
-  return new MelsecProtocol({ framing: frame3e(frame, code), head, profile: resolveProfile('iq-r'), code })
+export function protocolOf(frame: Frame, code: 'binary' | 'ascii' = 'binary'): MelsecProtocol<SlmpHead> {
+  const head = { ...ownStation, timer: 0 }
+  return new MelsecProtocol({ framing: slmpFraming(frame, code), head, profile: resolveProfile('iq-r'), code })
 }
 
 export class ScriptedPlc {
@@ -56,7 +56,7 @@ export class ScriptedPlc {
   proofs = 0
   /** What it does with a connection, before anything is received. */
   onConnection: (peer: ServerConnection) => void = () => {}
-  readonly #protocol: MelsecProtocol<Head3e>
+  readonly #protocol: MelsecProtocol<SlmpHead>
 
   constructor(
     frame: Frame,
@@ -79,7 +79,7 @@ export class ScriptedPlc {
     this.onConnection(peer)
   }
 
-  #received(responder: Responder<Head3e>, frame: RequestFrame<Head3e>, peer: ServerConnection): void {
+  #received(responder: Responder<SlmpHead>, frame: RequestFrame<SlmpHead>, peer: ServerConnection): void {
     const request = this.#protocol.readRequest(frame)
     if ('unknown' in request) throw new Error('the PLC was asked something it does not know')
     const message = request.message as { head?: { number: number }; points: number; values: number[]; data: string }

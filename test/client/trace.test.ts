@@ -1,19 +1,23 @@
 import { describe, expect, test } from '@jest/globals'
-import { TraceBuffer, Tracer, type TracerOptions } from '../../src/client/melsec/trace'
+import { Tracer } from '../../src/client/connection/trace'
 import { declare, field } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpExplainerOptions, slmpExplainer } from '../../src/melsec/explain/slmp-explainer'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
-const head: Head3e = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
+const head: SlmpHead = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 0 }
 const profile = resolveProfile('generic')
 
 /** A tracer, and the frames of a client with its settings. */
-function bench(frame: '3E' | '4E' = '4E', options: Partial<TracerOptions> = {}) {
-  const framing = frame3e(frame, 'binary')
+function bench(
+  frame: '3E' | '4E' = '4E',
+  options: Partial<SlmpExplainerOptions> & { readonly kind?: 'stream' | 'datagram' } = {},
+) {
+  const framing = slmpFraming(frame, 'binary')
   const protocol = new MelsecProtocol({ framing, head, profile, code: 'binary' })
-  const tracer = new Tracer({ frame, code: 'binary', profile, ...options })
+  const tracer = new Tracer(slmpExplainer({ frame, code: 'binary', profile, ...options }), options.kind ?? 'stream')
   return {
     tracer,
     read: (number: number, serial = 0) =>
@@ -140,7 +144,7 @@ test('secrets are asterisks in the bytes and in the words', () => {
   } as const
   const { sent } = bench('3E', { commands: declare({ unlock }) })
   const body = Buffer.concat([Buffer.from('301600000700', 'hex'), Buffer.from('hunter2')])
-  const entry = sent(frame3e('3E', 'binary').request.write(head, 0, body))
+  const entry = sent(slmpFraming('3E', 'binary').request.write(head, 0, body))
   expect(entry.bytes.toString('latin1')).toContain('*******')
   for (const shown of [
     entry.bytes.toString('latin1'),
@@ -150,15 +154,4 @@ test('secrets are asterisks in the bytes and in the words', () => {
   ]) {
     expect(shown).not.toMatch(/hunter|68 75 6E|68756e/)
   }
-})
-
-test('a ring keeps the last entries', () => {
-  const { read, sent } = bench()
-  const ring = new TraceBuffer(2)
-  const [, second, third] = [1, 2, 3].map((number) => {
-    const entry = sent(read(number, number))
-    ring.add(entry)
-    return entry
-  })
-  expect(ring.entries).toEqual([second, third])
 })

@@ -1,8 +1,9 @@
 /** Right requests with right answers, of every declared command in every form: what the damage starts from. */
+
 import fc from 'fast-check'
 import type { DataCode, Message, Shape } from '../../src/codec/codec'
 import { RequestError } from '../../src/errors'
-import type { Exchange, HeadProtocol, NamedCommand } from '../../src/link/link'
+import type { Exchange, Head, HeadProtocol, NamedCommand } from '../../src/link/link'
 import type { Command } from '../../src/melsec/commands/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import type { DeviceForm } from '../../src/melsec/device/device-form'
@@ -10,9 +11,9 @@ import { FORM_BITS, subcommandOf } from '../../src/melsec/device/form'
 import type { MelsecProtocol } from '../../src/melsec/protocol'
 import { arbitrary } from '../support/arbitrary'
 
-export interface Sample<Head> {
+export interface Sample {
   readonly command: string
-  readonly exchange: Exchange<Head, unknown>
+  readonly exchange: Exchange<unknown>
   /** Body of a right answer. */
   readonly answer: Buffer
 }
@@ -55,13 +56,13 @@ function* sendable<T>(messages: readonly Message[], make: (message: Message) => 
 }
 
 /** The SLMP set. */
-export function samplesOf<Head>(protocol: MelsecProtocol<Head>): Sample<Head>[] {
+export function samplesOf<H extends Head>(protocol: MelsecProtocol<H>): Sample[] {
   return Object.values<Command>(commands).flatMap((command) =>
     (command.unit === 'none' ? FORMS.slice(0, 1) : FORMS).flatMap((form) => samplesIn(protocol, command, form)),
   )
 }
 
-function samplesIn<Head>(protocol: MelsecProtocol<Head>, command: Command, form: DeviceForm): Sample<Head>[] {
+function samplesIn<H extends Head>(protocol: MelsecProtocol<H>, command: Command, form: DeviceForm): Sample[] {
   const ascii = protocol.code === 'ascii'
   const bits = FORM_BITS[form]
   const registered: Command | undefined =
@@ -70,7 +71,7 @@ function samplesIn<Head>(protocol: MelsecProtocol<Head>, command: Command, form:
   const messages = contexts ?? messagesOf(command.request, ascii, bits)
   const name = command.name as CommandName
   return [
-    ...sendable(messages, (given): Sample<Head> => {
+    ...sendable(messages, (given): Sample => {
       const message = registered === undefined ? given : {}
       const options = registered === undefined ? { form } : { context: given }
       const exchange = protocol.exchange<Command>(command, message, options)
@@ -98,14 +99,14 @@ function nearbyIn(part: unknown): unknown {
 }
 
 /** A set whose command number is in the head: 1E, Sharp JW. */
-export function samplesOfHead<Head>(
-  protocol: HeadProtocol<Head>,
+export function samplesOfHead<H extends Head>(
+  protocol: HeadProtocol<H>,
   list: Readonly<Record<string, NamedCommand>>,
   code: DataCode,
-): Sample<Head>[] {
+): Sample[] {
   const ascii = code === 'ascii'
   return Object.values(list).flatMap((command) => [
-    ...sendable(messagesOf(command.request, ascii, 0), (given): Sample<Head> => {
+    ...sendable(messagesOf(command.request, ascii, 0), (given): Sample => {
       const exchange = protocol.exchange(command, nearby(given))
       const asked = { ...exchange.message }
       const answer = protocol.writeResponse(

@@ -5,14 +5,14 @@ import { RequestError } from '../../src/errors'
 import { jwCommands } from '../../src/jw/commands'
 import { type ExplainJwOptions, explainJwFrame } from '../../src/jw/explain-frame'
 import { jwProtocol } from '../../src/jw/protocol'
-import type { Framing, HeadProtocol, RequestFrame } from '../../src/link/link'
+import type { Framing, Head, HeadProtocol, RequestFrame } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import { explainFrame } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
 import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import type { FrameName, ProfileId } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
@@ -22,13 +22,13 @@ import { type Sample, samplesOf, samplesOfHead } from './corpus'
 const CODES: readonly DataCode[] = ['binary', 'ascii']
 
 /** A frame with everything that reads it. */
-export interface Spoken<Head> {
-  readonly framing: Framing<Head>
-  readonly samples: readonly Sample<Head>[]
+export interface Spoken<H extends Head> {
+  readonly framing: Framing<H>
+  readonly samples: readonly Sample[]
   readonly code: DataCode
   /** The PLC's side: where a request ends, for frames that do not say it, and what it is. */
-  readonly requestLength: (head: Head, soFar: Buffer) => number | undefined
-  readonly readRequest: (frame: RequestFrame<Head>) => unknown
+  readonly requestLength: (head: H, soFar: Buffer) => number | undefined
+  readonly readRequest: (frame: RequestFrame<H>) => unknown
   /** In words; `request` is the one that is answered. */
   readonly explain: (bytes: Buffer, request: Buffer | undefined) => unknown
   /** Simulated PLCs that take it. */
@@ -38,10 +38,10 @@ export interface Spoken<Head> {
 /** Hides the type of the head: each kind has its own. */
 export interface FrameKind {
   readonly name: string
-  use<T>(run: <Head>(spoken: Spoken<Head>) => T): T
+  use<T>(run: <H extends Head>(spoken: Spoken<H>) => T): T
 }
 
-function kind<Head>(name: string, make: () => Spoken<Head>): FrameKind {
+function kind<H extends Head>(name: string, make: () => Spoken<H>): FrameKind {
   return { name, use: (run) => run(make()) }
 }
 
@@ -50,8 +50,8 @@ type SlmpName = Exclude<FrameName, '1E'>
 function slmp(frame: SlmpName, code: DataCode): FrameKind {
   return kind(`${frame} ${code}`, () => {
     const protocol = new MelsecProtocol({
-      framing: frame3e(frame, code),
-      head: { route: ownStation, timer: 0 },
+      framing: slmpFraming(frame, code),
+      head: { ...ownStation, timer: 0 },
       profile: lenient(profiles['iq-r']),
       code,
       asciiZr: 'decimal',
@@ -68,7 +68,7 @@ function slmp(frame: SlmpName, code: DataCode): FrameKind {
   })
 }
 
-function explaining(options: ExplainFrameOptions): Spoken<unknown>['explain'] {
+function explaining(options: ExplainFrameOptions): Spoken<Head>['explain'] {
   return (bytes, request) => explainFrame(bytes, { ...options, ...(request === undefined ? {} : { request }) })
 }
 
@@ -77,7 +77,7 @@ function format5(sumCheck: boolean): FrameKind {
     const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
     const protocol = new MelsecProtocol({
       framing: frame4cFormat5({ sumCheck }),
-      head: { route },
+      head: route,
       profile: lenient(profiles.q),
       code: 'binary',
     })
@@ -114,12 +114,12 @@ function jw(header: 'none' | 'zero40'): FrameKind {
   })
 }
 
-function headed<Head>(
-  protocol: HeadProtocol<Head>,
+function headed<H extends Head>(
+  protocol: HeadProtocol<H>,
   list: Parameters<typeof samplesOfHead>[1],
   code: DataCode,
-  rest: Pick<Spoken<Head>, 'explain' | 'plc'>,
-): Spoken<Head> {
+  rest: Pick<Spoken<H>, 'explain' | 'plc'>,
+): Spoken<H> {
   return {
     framing: protocol.framing,
     samples: samplesOfHead(protocol, list, code),
@@ -141,7 +141,7 @@ function kindsOf(name: FrameName): FrameKind[] {
 /** Not every frame has both codes. */
 function exists(name: SlmpName, code: DataCode): boolean {
   try {
-    return frame3e(name, code) !== undefined
+    return slmpFraming(name, code) !== undefined
   } catch (error) {
     if (error instanceof RequestError) return false
     throw error

@@ -2,9 +2,11 @@
  * Reads random and damaged frames with everything that reads frames. What comes of them is a value or a ProtocolError
  * (EndCodeError for an answer that says so); anything else that is thrown is a bug, and so is memory or time without end.
  */
+
 import { setFlagsFromString } from 'node:v8'
 import { runInNewContext } from 'node:vm'
 import { EndCodeError, ProtocolError } from '../../src/errors'
+import type { Head } from '../../src/link/link'
 import { type Framing, Responder, Session } from '../../src/link/link'
 import { createPlcSimulator, type PlcSimulator } from '../../src/simulator/server'
 import type { Transport } from '../../src/transport/transport'
@@ -75,7 +77,7 @@ export function fuzz(kind: FrameKind, options: FuzzOptions): FuzzResult {
   }
 }
 
-abstract class Direction<Head> {
+abstract class Direction<H extends Head> {
   protected readonly random = new Random()
   protected readonly damage: Damage
   readonly tally: Tally = {
@@ -91,7 +93,7 @@ abstract class Direction<Head> {
   }
 
   constructor(
-    protected readonly spoken: Spoken<Head>,
+    protected readonly spoken: Spoken<H>,
     protected readonly options: FuzzOptions,
   ) {
     this.damage = new Damage(this.random, spoken.code === 'ascii')
@@ -175,20 +177,20 @@ abstract class Direction<Head> {
   }
 
   /** A request and another one. */
-  protected pick(): readonly [Sample<Head>, Sample<Head>] {
+  protected pick(): readonly [Sample, Sample] {
     const { samples } = this.spoken
     return [this.random.pick(samples), this.random.pick(samples)]
   }
 }
 
 /** The PLC's side. */
-class Requests<Head> extends Direction<Head> {
+class Requests<H extends Head> extends Direction<H> {
   readonly side = 'request'
-  readonly #stream: Responder<Head>
-  readonly #datagrams: Responder<Head>
-  readonly #plc: Plc<Head> | undefined
+  readonly #stream: Responder<H>
+  readonly #datagrams: Responder<H>
+  readonly #plc: Plc<H> | undefined
 
-  constructor(spoken: Spoken<Head>, options: FuzzOptions) {
+  constructor(spoken: Spoken<H>, options: FuzzOptions) {
     super(spoken, options)
     this.#stream = new Responder(spoken.framing, 'stream', spoken.requestLength)
     this.#datagrams = new Responder(spoken.framing, 'datagram', spoken.requestLength)
@@ -202,8 +204,8 @@ class Requests<Head> extends Direction<Head> {
     const bytes = this.make(
       one.exchange.body,
       other.exchange.body,
-      (body) => framing.request.write(one.exchange.head, serial, body),
-      () => framing.response.write(one.exchange.head, serial, 0, one.answer),
+      (body) => framing.request.write(headOf(this.spoken, one), serial, body),
+      () => framing.response.write(headOf(this.spoken, one), serial, 0, one.answer),
     )
     this.count(() => {
       const scanned = framing.request.scan(bytes, requestLength)
@@ -219,7 +221,7 @@ class Requests<Head> extends Direction<Head> {
     if (this.random.oneIn(this.options.every)) this.#plc?.send(chunks)
   }
 
-  #read(frame: Parameters<Spoken<Head>['readRequest']>[0]): void {
+  #read(frame: Parameters<Spoken<H>['readRequest']>[0]): void {
     try {
       this.spoken.readRequest(frame)
     } catch (error) {
@@ -229,19 +231,19 @@ class Requests<Head> extends Direction<Head> {
 }
 
 /** The client's side: each answer meets the request it belongs to. */
-class Answers<Head> extends Direction<Head> {
+class Answers<H extends Head> extends Direction<H> {
   readonly side = 'answer'
   #now = 0
-  #streams: Session<Head>
-  #datagrams: Session<Head>
+  #streams: Session
+  #datagrams: Session
 
-  constructor(spoken: Spoken<Head>, options: FuzzOptions) {
+  constructor(spoken: Spoken<H>, options: FuzzOptions) {
     super(spoken, options)
     this.#streams = this.#session('stream')
     this.#datagrams = this.#session('datagram')
   }
 
-  #session(kind: 'stream' | 'datagram'): Session<Head> {
+  #session(kind: 'stream' | 'datagram'): Session {
     return new Session(this.spoken.framing, { kind, window: 1 })
   }
 
@@ -261,7 +263,7 @@ class Answers<Head> extends Direction<Head> {
     const bytes = this.make(
       one.answer,
       other.answer,
-      (body) => framing.response.write(exchange.head, serial, endCode, body),
+      (body) => framing.response.write(headOf(this.spoken, one), serial, endCode, body),
       () => sent,
     )
     this.count(() => {
@@ -278,7 +280,7 @@ class Answers<Head> extends Direction<Head> {
   }
 
   /** The job ends once. Says whether the session is at its end. */
-  #outcome(session: Session<Head>, job: object, exchange: Sample<Head>['exchange']): boolean {
+  #outcome(session: Session, job: object, exchange: Sample['exchange']): boolean {
     let done = 0
     let dropped = false
     for (let event = session.poll(); event !== undefined; event = session.poll()) {
@@ -292,7 +294,7 @@ class Answers<Head> extends Direction<Head> {
     return dropped
   }
 
-  #decode(exchange: Sample<Head>['exchange'], frame: Parameters<typeof exchange.decode>[0]): void {
+  #decode(exchange: Sample['exchange'], frame: Parameters<typeof exchange.decode>[0]): void {
     try {
       exchange.decode(frame)
     } catch (error) {
@@ -300,7 +302,7 @@ class Answers<Head> extends Direction<Head> {
     }
   }
 
-  #renew(kind: 'stream' | 'datagram', session: Session<Head>): void {
+  #renew(kind: 'stream' | 'datagram', session: Session): void {
     session.disconnected()
     if (session.buffered + session.inFlight + session.queued > 0) throw new Error('an ended session keeps something')
     if (kind === 'stream') this.#streams = this.#session(kind)
@@ -312,14 +314,14 @@ class Answers<Head> extends Direction<Head> {
 const AWAY = 60_000
 
 /** A simulated PLC that lives on whatever comes, with every handler; what it answers are frames. */
-class Plc<Head> {
+class Plc<H extends Head> {
   readonly #clock = manualClock()
   readonly #plc: PlcSimulator
-  readonly #scan: Framing<Head>['response']['scan'] | undefined
+  readonly #scan: Framing<H>['response']['scan'] | undefined
   #transport: Transport | undefined
   #received: Buffer = Buffer.alloc(0)
 
-  constructor({ plc, framing, code }: Spoken<Head>) {
+  constructor({ plc, framing, code }: Spoken<H>) {
     this.#plc = createPlcSimulator({ ...plc, code, clock: this.#clock })
     // Where an answer of 1E ends, only its request tells.
     if (plc?.frames.includes('1E') === false) this.#scan = framing.response.scan
@@ -358,4 +360,11 @@ class Plc<Head> {
 
 function describe(error: unknown): string {
   return error instanceof Error ? `${error.name}: ${error.message}` : String(error)
+}
+
+/** What stands in front of its body. */
+function headOf<H extends Head>({ framing, requestLength }: Spoken<H>, { exchange }: Sample): H {
+  const scanned = framing.request.scan(exchange.write(0), requestLength)
+  if (scanned === undefined) throw new Error('a sample is no whole request')
+  return scanned.frame.head
 }

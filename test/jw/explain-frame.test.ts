@@ -25,7 +25,8 @@ function requestOf({ command: name, request, header }: FrameVector): Buffer {
   if (request === undefined) throw new Error('the vector has no request')
   const command: NamedCommand = jwCommands[name as keyof typeof jwCommands]
   const exchange = protocol.exchange(command, withBytes(request))
-  return jwFrame(header === undefined ? {} : { header: 'zero40' }).request.write(exchange.head, 0, exchange.body)
+  const framing = jwFrame(header === undefined ? {} : { header: 'zero40' })
+  return framing.request.write({ command: command.code }, 0, exchange.body)
 }
 
 const withBytes = (message: Message): Readonly<Record<string, unknown>> =>

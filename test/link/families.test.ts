@@ -9,6 +9,7 @@ import { EndCodeError, type PlcError, ProtocolError } from '../../src/errors'
 import { jwCommands } from '../../src/jw/commands'
 import type { JwAddress } from '../../src/jw/operand'
 import { jwProtocol } from '../../src/jw/protocol'
+import type { Head } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import { commands } from '../../src/melsec/commands/commands'
@@ -21,7 +22,7 @@ import { HEAD, slmpFrames } from './support'
 const D = (number: number) => ({ device: 'D', number }) as const
 
 /** A PLC with the words D0 to D9999 that knows Read and Write in word units. */
-function melsecPlc<Head>(protocol: MelsecProtocol<Head>, words = new Uint16Array(10_000)): Plc<Head> {
+function melsecPlc<H extends Head>(protocol: MelsecProtocol<H>, words = new Uint16Array(10_000)): Plc<H> {
   return {
     bodyLength: () => undefined,
     answer(frame) {
@@ -74,7 +75,7 @@ describe.each(['whole', 'byte by byte'] as const)('MC 4C format 5, %s', (wire) =
   const protocol = (sumCheck = true) =>
     new MelsecProtocol({
       framing: frame4cFormat5({ sumCheck }),
-      head: { route },
+      head: route,
       profile: resolveProfile('q'),
       code: 'binary',
     })
@@ -132,7 +133,7 @@ describe.each(['whole', 'byte by byte'] as const)('MC 4C format 5, %s', (wire) =
   test('an answer of another station is not taken', () => {
     const mc = protocol()
     const line = new Line(mc.framing, melsecPlc(mc), wire)
-    const other = mc.framing.response.write({ route: { ...route, station: 5 } }, 0, 0, Buffer.of(1, 0))
+    const other = mc.framing.response.write({ ...route, station: 5 }, 0, 0, Buffer.of(1, 0))
     line.damage = () => other
     expect(line.fails(mc.exchange(commands.readWords, { head: D(0), points: 1 }))).toMatchObject({
       code: 'ECHO_MISMATCH',

@@ -1,5 +1,7 @@
 /** A client's session and a PLC's responder with a wire between them and the time as a number. */
+
 import { PlcError, TimeoutError } from '../../src/errors'
+import type { Head } from '../../src/link/link'
 import {
   type BodyLength,
   type Exchange,
@@ -19,27 +21,27 @@ export interface Answer {
 }
 
 /** What a PLC does with a request. */
-export interface Plc<Head> {
-  readonly bodyLength: BodyLength<Head>
-  answer(frame: RequestFrame<Head>): Answer
+export interface Plc<H extends Head> {
+  readonly bodyLength: BodyLength<H>
+  answer(frame: RequestFrame<H>): Answer
 }
 
 const TIMEOUT = 1000
 
-export class Line<Head> {
+export class Line<H extends Head> {
   readonly sent: Buffer[] = []
   readonly received: Buffer[] = []
   /** Code of the error that ended the connection. */
   dropped: string | undefined
   damage = (answer: Buffer): Buffer => answer
   damageRequest = (request: Buffer): Buffer => request
-  readonly #session: Session<Head>
-  readonly #responder: Responder<Head>
+  readonly #session: Session
+  readonly #responder: Responder<H>
   #now = 0
 
   constructor(
-    framing: Framing<Head>,
-    private readonly plc: Plc<Head>,
+    framing: Framing<H>,
+    private readonly plc: Plc<H>,
     private readonly wire: Wire,
   ) {
     const kind = wire === 'datagrams' ? 'datagram' : 'stream'
@@ -48,9 +50,8 @@ export class Line<Head> {
   }
 
   /** Sends a request and waits for its answer; throws what came of it instead. */
-  ask<T>(exchange: Exchange<Head, T>): T {
-    const { head, body, responseLength } = exchange
-    const job: Job<Head> = { head, body, responseLength, deadline: this.#now + TIMEOUT }
+  ask<T>(exchange: Exchange<T>): T {
+    const job: Job = { ...exchange, deadline: this.#now + TIMEOUT }
     this.#session.submit(job, this.#now)
     for (let bytes = this.#session.transmit(); bytes !== undefined; bytes = this.#session.transmit()) {
       this.sent.push(bytes)
@@ -62,7 +63,7 @@ export class Line<Head> {
   }
 
   /** The error a request ends with. */
-  fails<T>(exchange: Exchange<Head, T>): PlcError {
+  fails<T>(exchange: Exchange<T>): PlcError {
     try {
       this.ask(exchange)
     } catch (error) {
@@ -85,7 +86,7 @@ export class Line<Head> {
     return this.wire === 'byte by byte' ? [...bytes].map((byte) => Buffer.of(byte)) : [bytes]
   }
 
-  #outcome<T>(exchange: Exchange<Head, T>, job: Job<Head>): T {
+  #outcome<T>(exchange: Exchange<T>, job: Job): T {
     const events = eventsOf(this.#session)
     for (const event of events) if (event.kind === 'drop') this.dropped = event.error.code
     const [done, ...more] = events.filter((event) => event.kind === 'done')

@@ -1,11 +1,11 @@
 /** Frames that come unasked, between the answers and whatever way the bytes are cut: each is told once, none disturbs. */
 import { describe, expect, test } from '@jest/globals'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { onDemandFrames } from '../melsec/on-demand-frames'
 import { answer, job, sent, sessionOf, type TestSession, told } from './support'
 
 describe.each(onDemandFrames)('On-demand in a $frame frame in $code code', ({ frame, code, bytes }) => {
-  const framing = frame3e(frame, code)
+  const framing = slmpFraming(frame, code)
   const scanned = framing.request.scan(bytes, () => undefined)
   const unasked = `unsolicited ${scanned?.frame.body.toString('latin1')}`
 

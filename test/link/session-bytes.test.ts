@@ -1,10 +1,13 @@
 // How bytes arrive, and what becomes of them: pieces, rubbish, too much, too little, nothing.
+
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { jwFrame } from '../../src/jw/frame'
+import type { Head } from '../../src/link/link'
 import { type Framing, Session, type SessionOptions } from '../../src/link/link'
 import { frame1e } from '../../src/melsec/frame/frame-1e'
 import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
+import { questionOf } from '../support/question'
 import { answer, eventsOf, HEAD, job, sent, sessionOf, slmpFrames, told } from './support'
 
 describe.each(slmpFrames)('$title', ({ framing }) => {
@@ -186,11 +189,11 @@ describe('any bytes', () => {
     run(kind: 'stream' | 'datagram', chunks: readonly Uint8Array[]): readonly string[]
   }
 
-  function fuzzed<Head>(framing: Framing<Head>, head: Head): Fuzzed {
+  function fuzzed<H extends Head>(framing: Framing<H>, head: H): Fuzzed {
     const run: Fuzzed['run'] = (kind, chunks) => {
       const session = new Session(framing, { kind, window: 1, maxFrame: 200 })
       const length = () => 6
-      session.submit({ head, body: Buffer.from('0123'), deadline: 1000, responseLength: length }, 0)
+      session.submit({ ...questionOf(framing, head, Buffer.from('0123'), length), deadline: 1000 }, 0)
       session.transmit()
       for (const chunk of chunks) session.receive(Buffer.from(chunk), 1)
       session.timeout(1000)
@@ -204,7 +207,7 @@ describe('any bytes', () => {
   const all: readonly Fuzzed[] = [
     ...slmpFrames.map(({ framing }) => fuzzed(framing, HEAD)),
     ...(['binary', 'ascii'] as const).map((code) => fuzzed(frame1e(code), { command: 1, pc: 0xff, timer: 0 })),
-    fuzzed(frame4cFormat5(), { route }),
+    fuzzed(frame4cFormat5(), route),
     fuzzed(jwFrame(), { command: 0x24 }),
   ]
   /** Heads of every frame, so that the bytes come far enough to be read. */

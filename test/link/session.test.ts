@@ -2,7 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
 import { type Framing, type RequestFrame, SerialNumbers } from '../../src/link/link'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { answer, HEAD, job, sent, sessionOf, slmpFrames, type TestSession, told } from './support'
 
 const codes = ['binary', 'ascii'] as const
@@ -10,13 +10,13 @@ const codes = ['binary', 'ascii'] as const
 const numbered = slmpFrames.filter(({ framing }) => framing.correlation === 'serial')
 
 /** Submits the jobs and returns the requests that went out for them. */
-function ask(session: TestSession, framing: Framing<Head3e>, names: string, now = 0): RequestFrame<Head3e>[] {
+function ask(session: TestSession, framing: Framing<SlmpHead>, names: string, now = 0): RequestFrame<SlmpHead>[] {
   for (const name of names) session.submit(job(name), now)
   return sent(session, framing)
 }
 
 describe.each(numbered)('$title: answers find their requests by the serial number', ({ framing }) => {
-  const reply = (request: RequestFrame<Head3e> | undefined, options?: Parameters<typeof answer>[2]) => {
+  const reply = (request: RequestFrame<SlmpHead> | undefined, options?: Parameters<typeof answer>[2]) => {
     if (request === undefined) throw new Error('nothing was asked')
     return answer(framing, request, options)
   }
@@ -75,7 +75,7 @@ describe.each(numbered)('$title: answers find their requests by the serial numbe
   test('an answer from another station than asked fails the request and drops the connection', () => {
     const session = sessionOf(framing, { window: 2 })
     const [a] = ask(session, framing, 'AB')
-    session.receive(reply(a, { head: { ...HEAD, route: { ...HEAD.route, network: 2 } } }), 1)
+    session.receive(reply(a, { head: { ...{ ...HEAD, network: 2 } } }), 1)
     expect(told(session)).toEqual(['A failed ECHO_MISMATCH', 'B failed ECHO_MISMATCH', 'drop ECHO_MISMATCH'])
   })
 
@@ -112,7 +112,7 @@ describe.each(numbered)('$title: answers find their requests by the serial numbe
 })
 
 describe('serial numbers', () => {
-  const framing = frame3e('4E', 'binary')
+  const framing = slmpFraming('4E', 'binary')
 
   test('wrap around, and leave out what is resting or in use', () => {
     const serials = new SerialNumbers(0xfffe)
@@ -187,7 +187,7 @@ describe('serial numbers', () => {
 })
 
 describe.each(codes)('4E %s: half an answer', (code) => {
-  const framing = frame3e('4E', code)
+  const framing = slmpFraming('4E', code)
 
   test('is waited for as long as another request in flight waits; then the connection is dropped', () => {
     const session = sessionOf(framing, { window: 2 })
@@ -217,7 +217,7 @@ describe.each(codes)('4E %s: half an answer', (code) => {
 })
 
 describe.each(codes)('3E %s: without a serial number answers come in order', (code) => {
-  const framing = frame3e('3E', code)
+  const framing = slmpFraming('3E', code)
   const reply = (text: string) => answer(framing, { serial: undefined, body: Buffer.from(text) })
 
   test('only one request may be in flight', () => {

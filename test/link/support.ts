@@ -1,4 +1,5 @@
 /** A session with the time as a number, and the PLC's side of its frames. */
+
 import {
   type Framing,
   type Job,
@@ -9,33 +10,54 @@ import {
 } from '../../src/link/link'
 import { frameFacts } from '../../src/melsec/frame/frames'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
+import { questionOf } from '../support/question'
 
 /** Every frame of the SLMP set in every data code it has. */
 export const slmpFrames = (['3E', '4E', 'ext'] as const).flatMap((frame) =>
-  frameFacts[frame].codes.map((code) => ({ title: `${frame} ${code}`, frame, code, framing: frame3e(frame, code) })),
+  frameFacts[frame].codes.map((code) => ({
+    title: `${frame} ${code}`,
+    frame,
+    code,
+    framing: slmpFraming(frame, code),
+  })),
 )
 
-export const HEAD: Head3e = { route: ownStation, timer: 0 }
+export const HEAD: SlmpHead = { ...ownStation, timer: 0 }
 
-export interface TestJob extends Job<Head3e> {
+export interface TestJob extends Job {
   readonly name: string
 }
 
-/** The body names the job, so that the PLC's side can tell the requests apart. */
+/** A job; it gets its frame from the session that it is given to. */
 export function job(name: string, deadline = 1000): TestJob {
-  return { name, deadline, head: HEAD, body: Buffer.from(name), responseLength: () => undefined }
+  const unframed = (): never => {
+    throw new Error(`job ${name} was given to no session`)
+  }
+  return { name, deadline, write: unframed, mismatch: unframed, responseLength: unframed }
 }
 
-export type TestSession = Session<Head3e, TestJob>
+/** The body of a request names its job, so that the PLC's side can tell the requests apart. */
+export class TestSession extends Session<TestJob> {
+  readonly #framing: Framing<SlmpHead>
 
-export function sessionOf(framing: Framing<Head3e>, options: Partial<SessionOptions> = {}): TestSession {
-  return new Session<Head3e, TestJob>(framing, { kind: 'stream', window: 1, ...options })
+  constructor(framing: Framing<SlmpHead>, options: SessionOptions) {
+    super(framing, options)
+    this.#framing = framing
+  }
+
+  override submit(given: TestJob, now: number): void {
+    super.submit(Object.assign(given, questionOf(this.#framing, HEAD, Buffer.from(given.name))), now)
+  }
+}
+
+export function sessionOf(framing: Framing<SlmpHead>, options: Partial<SessionOptions> = {}): TestSession {
+  return new TestSession(framing, { kind: 'stream', window: 1, ...options })
 }
 
 /** What the session wants to send, as the PLC reads it. */
-export function sent(session: TestSession, framing: Framing<Head3e>): RequestFrame<Head3e>[] {
-  const requests: RequestFrame<Head3e>[] = []
+export function sent(session: TestSession, framing: Framing<SlmpHead>): RequestFrame<SlmpHead>[] {
+  const requests: RequestFrame<SlmpHead>[] = []
   for (let bytes = session.transmit(); bytes !== undefined; bytes = session.transmit()) {
     const scanned = framing.request.scan(bytes, () => undefined)
     if (scanned?.used !== bytes.length) throw new Error('the session sent something else than one frame')
@@ -46,15 +68,15 @@ export function sent(session: TestSession, framing: Framing<Head3e>): RequestFra
 
 /** The answer to a request: its own body, so that it shows whose answer it is. */
 export function answer(
-  framing: Framing<Head3e>,
-  request: Pick<RequestFrame<Head3e>, 'serial' | 'body'>,
+  framing: Framing<SlmpHead>,
+  request: Pick<RequestFrame<SlmpHead>, 'serial' | 'body'>,
   { head = HEAD, endCode = 0 } = {},
 ): Buffer {
   return framing.response.write(head, request.serial ?? 0, endCode, request.body)
 }
 
-export function eventsOf<Head, J extends Job<Head>>(session: Session<Head, J>): SessionEvent<Head, J>[] {
-  const events: SessionEvent<Head, J>[] = []
+export function eventsOf<J extends Job>(session: Session<J>): SessionEvent<J>[] {
+  const events: SessionEvent<J>[] = []
   for (let event = session.poll(); event !== undefined; event = session.poll()) events.push(event)
   return events
 }
@@ -81,7 +103,7 @@ export function told(session: TestSession): string[] {
   })
 }
 
-type Outcome = Extract<SessionEvent<Head3e, TestJob>, { kind: 'done' }>['outcome']
+type Outcome = Extract<SessionEvent<TestJob>, { kind: 'done' }>['outcome']
 
 function outcomeOf(outcome: Outcome): string {
   switch (outcome.kind) {

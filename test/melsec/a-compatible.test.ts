@@ -1,7 +1,9 @@
 /** The command set of the 1E frame: what a request may say, what goes into the frame, and what an answer is read as. */
+
 import { describe, expect, test } from '@jest/globals'
 import type { Declaration, Message, Named } from '../../src/codec/codec'
 import { RequestError } from '../../src/errors'
+import type { NamedCommand } from '../../src/link/link'
 import { type ACompatibleCommandName, aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { type ACompatibleOptions, aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import {
@@ -40,6 +42,7 @@ function refused(
 }
 
 const at = (device: DeviceName, number: number) => ({ device, number })
+const headOf = ({ code }: NamedCommand) => ({ command: code, pc: 0xff, timer: 0 })
 
 describe('vectors through the protocol', () => {
   const frames = vectorsOfKind('mc-ethernet-1e', 'frame')
@@ -49,7 +52,7 @@ describe('vectors through the protocol', () => {
     const { code, message = {}, head } = vector
     const protocol = aCompatibleProtocol({ code, asciiXy, timer: head?.timer ?? 0 })
     const sent = protocol.exchange(command(vector.command), message)
-    expect(protocol.framing.request.write(sent.head, 0, sent.body).toString('hex')).toBe(vector.hex)
+    expect(sent.write(0).toString('hex')).toBe(vector.hex)
     const scanned = protocol.framing.request.scan(bytesOf(vector), (on, soFar) => protocol.requestLength(on, soFar))
     if (scanned === undefined) throw new Error('the request is not whole')
     expect(protocol.readRequest(scanned.frame)).toMatchObject({ command: { name: vector.command }, message })
@@ -58,12 +61,13 @@ describe('vectors through the protocol', () => {
   test.each(frames.filter(({ side }) => side === 'response'))('$id is written by the PLC side and read', (vector) => {
     const { code, message = {}, request = {} } = vector
     const protocol = aCompatibleProtocol({ code, asciiXy })
-    const asked = protocol.exchange(command(vector.command), request)
+    const declared = command(vector.command)
+    const asked = protocol.exchange(declared, request)
     const scanned = protocol.framing.response.scan(bytesOf(vector), asked.responseLength)
     if (scanned === undefined) throw new Error('the answer is not whole')
     expect(asked.decode(scanned.frame)).toEqual(message)
     const body = protocol.writeResponse(command(vector.command), request, message)
-    expect(protocol.framing.response.write(asked.head, 0, 0, body).toString('hex')).toBe(vector.hex)
+    expect(protocol.framing.response.write(headOf(declared), 0, 0, body).toString('hex')).toBe(vector.hex)
   })
 })
 
@@ -199,20 +203,26 @@ describe('ASCII code', () => {
     expect(protocol.framing.response.scan(Buffer.from(`8000${answer}`), asked.responseLength)?.used).toBe(
       4 + answer.length,
     )
-    const frame = { head: asked.head, serial: undefined, endCode: 0, body: Buffer.from(answer) }
+    const frame = {
+      head: headOf(aCompatibleCommands.readBits),
+      serial: undefined,
+      endCode: 0,
+      body: Buffer.from(answer),
+    }
     expect(asked.decode(frame)).toEqual({ values: [true, false, true] })
     expect(protocol.writeResponse(command('readBits'), odd, { values: [true, false, true] }).toString()).toBe(answer)
     const write = protocol.exchange(aCompatibleCommands.writeBits, { head: at('M', 0), values: [true] })
     expect(write.body.toString('latin1')).toBe(`4D20000000000100${written}`)
-    const request = { head: write.head, serial: undefined, body: write.body }
-    expect(protocol.requestLength(write.head, Buffer.concat([write.body, Buffer.from('02FF')]))).toBe(write.body.length)
+    const head = headOf(aCompatibleCommands.writeBits)
+    const request = { head, serial: undefined, body: write.body }
+    expect(protocol.requestLength(head, Buffer.concat([write.body, Buffer.from('02FF')]))).toBe(write.body.length)
     expect(protocol.readRequest(request).message).toMatchObject({ values: [true] })
   })
 
   test('a dummy that is none is not taken', () => {
     const protocol = aCompatibleProtocol({ code: 'ascii', oddBits: 'padded' })
     const asked = protocol.exchange(aCompatibleCommands.readBits, { head: at('M', 0), points: 1 })
-    const frame = { head: asked.head, serial: undefined, endCode: 0, body: Buffer.from('11') }
+    const frame = { head: headOf(aCompatibleCommands.readBits), serial: undefined, endCode: 0, body: Buffer.from('11') }
     expect(() => asked.decode(frame)).toThrow(expect.objectContaining({ code: 'BAD_FIELD' }))
   })
 })

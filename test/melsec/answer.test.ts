@@ -3,13 +3,13 @@ import { describe, expect, test } from '@jest/globals'
 import type { DataCode } from '../../src/codec/codec'
 import { commands } from '../../src/melsec/commands/commands'
 import { ownStation } from '../../src/melsec/frame/route'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
 function asked(code: DataCode) {
-  const head = { route: ownStation, timer: 0 }
-  const protocol = new MelsecProtocol({ framing: frame3e('3E', code), head, profile: resolveProfile('q'), code })
+  const head = { ...ownStation, timer: 0 }
+  const protocol = new MelsecProtocol({ framing: slmpFraming('3E', code), head, profile: resolveProfile('q'), code })
   const { decode } = protocol.exchange(commands.readWords, { head: { device: 'D', number: 100 }, points: 2 })
   const information = (command: number, subcommand: number) =>
     protocol.writeErrorInformation({ ...ownStation, command, subcommand })

@@ -1,15 +1,17 @@
 // Frames of file commands in words.
+
 import { describe, expect, test } from '@jest/globals'
 import { MASK } from '../../src/codec/annotate'
+import { maskSecrets } from '../../src/codec/explanation'
 import type { Command } from '../../src/melsec/commands/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { explainFrame, maskSecrets } from '../../src/melsec/explain/frame'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { explainFrame } from '../../src/melsec/explain/frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, type RequestDataVector, vectorsOfKind } from '../vectors/vectors'
 
-const head: Head3e = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 16 }
+const head: SlmpHead = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 16 }
 
 function familyOf({ subcommand }: { readonly subcommand?: number }) {
   return subcommand === 0x40 ? profiles['iq-r'] : profiles.q
@@ -17,7 +19,7 @@ function familyOf({ subcommand }: { readonly subcommand?: number }) {
 
 /** The frame of a vector and what its message holds. */
 function framed(vector: RequestDataVector): Buffer {
-  return frame3e('3E', vector.code).request.write(head, 0, bytesOf(vector))
+  return slmpFraming('3E', vector.code).request.write(head, 0, bytesOf(vector))
 }
 
 const requests = vectorsOfKind('files', 'requestData')
@@ -44,8 +46,8 @@ test.each(requests)('$id is explained to its last byte, without its password', (
 })
 
 describe('an answer', () => {
-  const protocol = new MelsecProtocol<Head3e>({
-    framing: frame3e('3E', 'binary'),
+  const protocol = new MelsecProtocol<SlmpHead>({
+    framing: slmpFraming('3E', 'binary'),
     head,
     profile: profiles['iq-r'],
     code: 'binary',

@@ -2,23 +2,24 @@ import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { type AnnotatedRow, MASK } from '../../src/codec/annotate'
 import { declare, field, type Shape } from '../../src/codec/codec'
+import { maskSecrets } from '../../src/codec/explanation'
 import { ProtocolError, RequestError } from '../../src/errors'
 import type { NamedCommand } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import type { Command } from '../../src/melsec/commands/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { explainFrame, type FrameExplanation, formatExplanation, maskSecrets } from '../../src/melsec/explain/frame'
+import { explainFrame, type FrameExplanation, formatExplanation } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
 import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
 import { frameFacts, type SlmpFrameName } from '../../src/melsec/frame/frames'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, type FrameVector, type Message, vectorsOfKind } from '../vectors/vectors'
 
 type Code = 'binary' | 'ascii'
-const head: Head3e = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 16 }
+const head: SlmpHead = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 16 }
 const REGISTRATION = { words: [{ device: { device: 'D', number: 0 } }], doubleWords: [] } as const
 
 const requestVectors = [...vectorsOfKind('slmp', 'requestData'), ...vectorsOfKind('mc-serial', 'requestData')]
@@ -33,7 +34,7 @@ interface Asked {
 
 function protocolOf({ code, xyRadix }: Pick<Asked, 'code' | 'xyRadix'>, frame: SlmpFrameName = '3E') {
   return new MelsecProtocol({
-    framing: frame3e(frame, code),
+    framing: slmpFraming(frame, code),
     head,
     profile: resolveProfile('generic'),
     code,
@@ -183,14 +184,14 @@ function answerBody(frame: SlmpFrameName, vector: (typeof responseVectors)[numbe
 
 describe.each(['3E', '4E', 'ext'] as const)('the data of the manuals in a %s frame', (frame) => {
   test.each(carried(frame, requestVectors))('$id', (vector) => {
-    const { request } = frame3e(frame, vector.code)
+    const { request } = slmpFraming(frame, vector.code)
     const explanation = explained(request.write(head, 0x1234, requestBody(frame, bytesOf(vector))), octal(vector))
     expect(explanation.command).toBe(vector.command)
     expectMessage(explanation, vector.message)
   })
 
   test.each(carried(frame, responseVectors))('$id', (vector) => {
-    const bytes = frame3e(frame, vector.code).response.write(head, 0x1234, 0, answerBody(frame, vector))
+    const bytes = slmpFraming(frame, vector.code).response.write(head, 0x1234, 0, answerBody(frame, vector))
     const registration = { ...vector, command: 'entryMonitorDevice' }
     const explanation = explained(bytes, {
       ...octal(vector),
@@ -214,7 +215,7 @@ describe('words', () => {
   const binary = { code: 'binary' } as const
   const read = (device: string, number: number, points: number, command = 'readWords') =>
     requestFrame({ ...binary, command }, { head: { device, number }, points }, '3E')
-  const answer = (body: readonly number[]) => frame3e('3E', 'binary').response.write(head, 0, 0, Buffer.from(body))
+  const answer = (body: readonly number[]) => slmpFraming('3E', 'binary').response.write(head, 0, 0, Buffer.from(body))
 
   test('say devices as GX Works does, with the values that belong to them', () => {
     expect(lines(explained(answer([0xd2, 4, 0xff, 0xff]), { request: read('W', 0x1f, 2) }))).toContain(
@@ -297,7 +298,7 @@ describe('words', () => {
 
   test('explain an end code with meaning and remedy, and who reported it', () => {
     const body = Buffer.from('00ffff030001040000', 'hex')
-    const bytes = frame3e('4E', 'binary').response.write(head, 5, 0xc056, body)
+    const bytes = slmpFraming('4E', 'binary').response.write(head, 5, 0xc056, body)
     const explanation = explained(bytes, {
       request: requestFrame(
         { ...binary, command: 'readWords' },
@@ -319,7 +320,7 @@ describe('words', () => {
   test('identify a CPU by its model code', () => {
     const request = requestFrame({ ...binary, command: 'readTypeName' }, {}, '3E')
     const body = Buffer.concat([Buffer.from('R08CPU          '), Buffer.from('0148', 'hex')])
-    expect(lines(explained(frame3e('3E', 'binary').response.write(head, 0, 0, body), { request }))).toEqual(
+    expect(lines(explained(slmpFraming('3E', 'binary').response.write(head, 0, 0, body), { request }))).toEqual(
       expect.arrayContaining(['model: "R08CPU          "', 'modelCode: 4801H (R08CPU)']),
     )
   })
@@ -343,7 +344,7 @@ describe('words', () => {
   })
 
   test('keep the data of a command nobody declared', () => {
-    const bytes = frame3e('3E', 'binary').request.write(head, 0, Buffer.from('3412000001020304', 'hex'))
+    const bytes = slmpFraming('3E', 'binary').request.write(head, 0, Buffer.from('3412000001020304', 'hex'))
     const explanation = explained(bytes)
     expect(explanation.command).toBeUndefined()
     expect(explanation.title).toContain('command 1234H, subcommand 0000H')
@@ -433,7 +434,7 @@ describe('what is wrong', () => {
   })
 
   test("a request that is none, or another answer's, is said", () => {
-    const answer = frame3e('4E', 'binary').response.write(head, 7, 0, Buffer.of(1, 0))
+    const answer = slmpFraming('4E', 'binary').response.write(head, 7, 0, Buffer.of(1, 0))
     const asked = (serial: number) =>
       requestFrame(
         { code: 'binary', command: 'readWords' },
@@ -475,7 +476,7 @@ describe('mutated frames', () => {
     (frame) => {
       const frames = carried(frame, requestVectors).map((vector) => ({
         vector,
-        bytes: frame3e(frame, vector.code).request.write(head, 9, requestBody(frame, bytesOf(vector))),
+        bytes: slmpFraming(frame, vector.code).request.write(head, 9, requestBody(frame, bytesOf(vector))),
       }))
       const one = fc
         .constantFrom(...frames)
@@ -511,7 +512,7 @@ describe('mutated frames', () => {
   const kinds = ['3E', 'ext'] as const
   test.each(kinds)('%s answers, with and without their request: never an exception, every byte in a row', (frame) => {
     const one = fc.constantFrom(...carried(frame, responseVectors)).chain((vector) => {
-      const bytes = frame3e(frame, vector.code).response.write(head, 0, 0, answerBody(frame, vector))
+      const bytes = slmpFraming(frame, vector.code).response.write(head, 0, 0, answerBody(frame, vector))
       return fc.record({ vector: fc.constant(vector), bytes: mutated(bytes), asked: fc.boolean() })
     })
     fc.assert(
@@ -575,9 +576,8 @@ describe('1E frames', () => {
       ({ name }) => name === vector.command,
     )
     if (command === undefined) throw new Error(`no command ${vector.command}`)
-    const { head: asked, body } = protocol.exchange(command, vector.request)
-    const request = protocol.framing.request.write(asked, 0, body)
-    const bytes = protocol.framing.response.write(asked, 0, 0, bytesOf(vector))
+    const request = protocol.exchange(command, vector.request).write(0)
+    const bytes = protocol.framing.response.write({ command: command.code, pc: 0, timer: 0 }, 0, 0, bytesOf(vector))
     const explanation = explained(bytes, { frame: '1E', request })
     expect(explanation.command).toBe(vector.command)
     expectMessage(explanation, vector.message)
@@ -641,8 +641,8 @@ describe('4C frames in format 5', () => {
       head: { device: 'D', number: 0x10 },
       points: 2,
     })
-    const request = framing.request.write({ route }, 0, body)
-    const answer = framing.response.write({ route }, 0, 0, Buffer.from('10101000', 'hex'))
+    const request = framing.request.write(route, 0, body)
+    const answer = framing.response.write(route, 0, 0, Buffer.from('10101000', 'hex'))
     const explanation = explained(answer, { frame: '4C', request })
     expect(lines(explanation)).toContain('values: D16..D17: 4112 16')
     expect(explanation.rows.find(({ name }) => name === 'values')).toMatchObject({
@@ -685,7 +685,7 @@ describe('secrets', () => {
     },
   })
   const body = Buffer.from('3016000008006875 6e746572322178'.replaceAll(' ', ''), 'hex').subarray(0, 14)
-  const frame = frame3e('3E', 'binary').request.write(head, 0, body)
+  const frame = slmpFraming('3E', 'binary').request.write(head, 0, body)
 
   test('are asterisks in rows, in text and in the bytes a trace keeps', () => {
     const explanation = explained(frame, { commands: secretCommands })

@@ -4,12 +4,12 @@ import { EndCodeError, ProtocolError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { explainFrame, formatExplanation } from '../../src/melsec/explain/frame'
 import { completeRoute } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
-const head: Head3e = { route: completeRoute({ network: 1, station: 300 }), timer: 16 }
-const framing = frame3e('ext', 'binary')
+const head: SlmpHead = { ...completeRoute({ network: 1, station: 300 }), timer: 16 }
+const framing = slmpFraming('ext', 'binary')
 const protocol = new MelsecProtocol({ framing, head, profile: resolveProfile('iq-r'), code: 'binary' })
 /** Read of 1 word from D100, short form; station 300 = 012CH. */
 const REQUEST = '6800 3412 0000 01 7c ff03 00 00 2c01 1200 1000 0104 0000 00 0000000000 640000 a8 0100'.replaceAll(
@@ -56,11 +56,7 @@ describe('a request', () => {
   })
 
   test('says extension station 0 when the station field says all', () => {
-    const own = framing.request.write(
-      { route: completeRoute({ network: 3, station: 120 }), timer: 0 },
-      1,
-      Buffer.alloc(0),
-    )
+    const own = framing.request.write({ ...completeRoute({ network: 3, station: 120 }), timer: 0 }, 1, Buffer.alloc(0))
     expect(own.subarray(6, 14).toString('hex')).toBe('0378ff0300000000')
   })
 
@@ -100,11 +96,11 @@ describe('a request', () => {
   })
 
   test('exists in binary code only', () => {
-    expect(failure(() => frame3e('ext', 'ascii'))).toBeInstanceOf(RequestError)
+    expect(failure(() => slmpFraming('ext', 'ascii'))).toBeInstanceOf(RequestError)
   })
 
   test.each(['3E', '4E'] as const)('of a %s frame cannot say an extension station: it is not left out', (frame) => {
-    expect(failure(() => frame3e(frame, 'binary').request.write(head, 0, Buffer.alloc(0)))).toMatchObject({
+    expect(failure(() => slmpFraming(frame, 'binary').request.write(head, 0, Buffer.alloc(0)))).toMatchObject({
       code: 'BAD_OPTION',
       field: 'route.extensionStation',
     })

@@ -10,7 +10,7 @@ import {
   type Shape,
   writerOf,
 } from '../../src/codec/codec'
-import type { BodyLength, Framing } from '../../src/link/link'
+import type { BodyLength, Framing, Head } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
@@ -19,14 +19,14 @@ import { bodies } from '../../src/melsec/frame/body'
 import { frame1e, type Head1e, mayEndWithZero, zeroBehind } from '../../src/melsec/frame/frame-1e'
 import { frame4cFormat5, type Head4c } from '../../src/melsec/frame/frame-4c'
 import type { Route } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { type FrameCase, testFeedings, testWrongSum } from '../vectors/feedings'
 import { bytesOf, type FrameVector, type Vector, vectorsOfKind } from '../vectors/vectors'
 
 const profile = resolveProfile('generic')
 const own = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }
-const noLength: BodyLength<unknown> = () => {
+const noLength: BodyLength = () => {
   throw new Error('a frame with a length asked for one')
 }
 
@@ -77,16 +77,16 @@ function routeOf(vector: FrameVector): Route {
   }
 }
 
-function slmpCase(vector: FrameVector): FrameCase<Head3e> {
+function slmpCase(vector: FrameVector): FrameCase<SlmpHead> {
   const { code, side, endCode, head } = vector
   const unit = code === 'ascii' ? 2 : 1
   const route = routeOf(vector)
   return {
-    framing: frame3e(frameOf(vector), code),
+    framing: slmpFraming(frameOf(vector), code),
     side,
     bytes: bytesOf(vector),
-    head: { route, timer: side === 'request' ? given(head?.timer, 'timer') : 0 },
-    askedHead: { route, timer: 0 },
+    head: { ...route, timer: side === 'request' ? given(head?.timer, 'timer') : 0 },
+    askedHead: { ...route, timer: 0 },
     body: bodyOf(vector),
     ...(endCode === undefined ? {} : { endCode }),
     ...(head?.serial === undefined ? {} : { serial: head.serial, serialAt: { start: 2 * unit, end: 4 * unit } }),
@@ -131,8 +131,8 @@ describe('3E, 4E and station extension frames', () => {
   })
 
   test.each(vectorsOfKind('slmp', 'subheader'))('$id: subheader', (vector) => {
-    const framing = frame3e(vector.frame, vector.code)
-    const head = { route: own, timer: 0 }
+    const framing = slmpFraming(vector.frame, vector.code)
+    const head = { ...own, timer: 0 }
     const { serial = 0, side } = vector
     const bytes =
       side === 'request'
@@ -172,8 +172,8 @@ describe('fields of the 3E frame', () => {
     const length = requestDataLength ?? responseDataLength
     // Monitoring timer or end code counts as well.
     const body = Buffer.alloc(length === undefined ? 0 : length - (vector.code === 'ascii' ? 4 : 2))
-    const head = { route: { ...own, ...route }, timer }
-    const framing = frame3e('3E', vector.code)
+    const head = { ...own, ...route, timer }
+    const framing = slmpFraming('3E', vector.code)
     const frame =
       responseDataLength === undefined && vector.fields[0]?.name !== 'endCode'
         ? framing.request.write(head, 0, body)
@@ -189,7 +189,7 @@ describe('fields of the 3E frame', () => {
 const serialRoute = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
 
 function format5Case(vector: FrameVector): FrameCase<Head4c> {
-  const head = { route: { ...serialRoute, ...vector.head?.route } }
+  const head = { ...serialRoute, ...vector.head?.route }
   return {
     framing: frame4cFormat5({ sumCheck: given(vector.sumCheck, 'sumCheck') }),
     side: vector.side,
@@ -209,7 +209,7 @@ describe('4C frame, format 5', () => {
 
   test.each(vectorsOfKind('mc-serial', 'additionalCode'))('$id: 10H is doubled', (vector) => {
     const framing = frame4cFormat5({ sumCheck: false })
-    const frame = framing.request.write({ route: serialRoute }, 0, Buffer.from(vector.unstuffed, 'hex'))
+    const frame = framing.request.write(serialRoute, 0, Buffer.from(vector.unstuffed, 'hex'))
     expect(frame.subarray(12, -2).toString('hex')).toBe(vector.hex)
     expect(framing.request.scan(frame, noLength)?.frame.body.toString('hex')).toBe(vector.unstuffed)
   })
@@ -228,7 +228,7 @@ describe('4C frame, format 5', () => {
     const { dataBytes, frameId: _, ...route } = valuesOf(vector)
     // Frame ID 1, route 7, response ID 2 and end code 2 count as well.
     const body = Buffer.alloc(dataBytes === undefined ? 0 : dataBytes - 12)
-    const head = { route: { ...serialRoute, ...route } }
+    const head = { ...serialRoute, ...route }
     const frame = frame4cFormat5().response.write(head, 0, 0, body)
     expectField(vector, frame, given(AT[vector.fields[0]?.name ?? ''], 'known field'))
   })
@@ -254,7 +254,7 @@ function context1e(vector: FrameVector, shape: Shape): Context {
 }
 
 /** How long the body is, as the protocol knows it: from the bytes of a request, from the request of an answer. */
-function length1e(vector: FrameVector, head: Head1e, soFar: Buffer): number | undefined {
+function length1e(vector: FrameVector, head: Head, soFar: Buffer): number | undefined {
   const { code } = vector
   if (vector.side === 'request') return aCompatibleProtocol({ code }).requestLength(head, soFar)
   const command = command1e(vector.command)

@@ -8,7 +8,7 @@ import { deviceAddress, FORM_EXTENDED } from '../../src/melsec/device/codec'
 import { explainFrame } from '../../src/melsec/explain/frame'
 import { frame1e } from '../../src/melsec/frame/frame-1e'
 import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { tcpTransport } from '../../src/transport/tcp'
 import { record } from '../transport/recorder'
 
@@ -23,9 +23,9 @@ const ascii: DataCode = 'ascii'
 
 describe('frames', () => {
   test.each(['3E', '4E'] as const)('%s: subheader, serial number, route, length, timer and end code', (name) => {
-    const { request, response } = frame3e(name, ascii)
-    const asked = request.write({ route, timer: 0xfed }, 0xabcd, Buffer.from('04010000ABCD'.repeat(4)))
-    const answered = response.write({ route, timer: 0 }, 0xabcd, 0xc05c, Buffer.from('ABCDEF'))
+    const { request, response } = slmpFraming(name, ascii)
+    const asked = request.write({ ...route, timer: 0xfed }, 0xabcd, Buffer.from('04010000ABCD'.repeat(4)))
+    const answered = response.write({ ...route, timer: 0 }, 0xabcd, 0xc05c, Buffer.from('ABCDEF'))
     for (const [scan, frame] of [
       [request.scan, asked],
       [response.scan, answered],
@@ -53,7 +53,7 @@ describe('frames', () => {
 
   test('4C format 5: the sum check code', () => {
     const { request } = frame4cFormat5()
-    const head = { route: { ...route, pc: 0xff, selfStation: 0 } }
+    const head = { ...route, pc: 0xff, selfStation: 0 }
     // Bodies differ, so that sums with letters are among them.
     for (let i = 0; i < 32; i++) {
       const frame = request.write(head, 0, Buffer.from([i]))

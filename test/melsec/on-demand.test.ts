@@ -4,7 +4,7 @@ import fc from 'fast-check'
 import { ProtocolError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { unsolicitedCommands, wordsOfBytes } from '../../src/melsec/commands/on-demand'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { readOnDemand, writeOnDemand } from '../../src/melsec/on-demand'
 import { hex, ON_DEMAND_DATA, onDemandFrames, text } from './on-demand-frames'
 
@@ -21,12 +21,12 @@ function errorOf(run: () => unknown): unknown {
 
 describe.each(onDemandFrames)('On-demand in a $frame frame in $code code', ({ frame, code, bytes }) => {
   test('is written as the manual lays it out', () => {
-    const head = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
-    expect(frame3e(frame, code).request.write(head, 0x5678, writeOnDemand(code, ON_DEMAND_DATA))).toEqual(bytes)
+    const head = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 0 }
+    expect(slmpFraming(frame, code).request.write(head, 0x5678, writeOnDemand(code, ON_DEMAND_DATA))).toEqual(bytes)
   })
 
   test('is read to its data', () => {
-    const scanned = frame3e(frame, code).request.scan(bytes, () => undefined)
+    const scanned = slmpFraming(frame, code).request.scan(bytes, () => undefined)
     expect(scanned?.used).toBe(bytes.length)
     expect(readOnDemand(code, scanned?.frame.body ?? Buffer.alloc(0))).toEqual(ON_DEMAND_DATA)
   })

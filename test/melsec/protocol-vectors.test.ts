@@ -2,12 +2,12 @@
 import { describe, expect, test } from '@jest/globals'
 import { EndCodeError } from '../../src/errors'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, plain, type RequestDataVector, vectorsOfKind } from '../vectors/vectors'
 
-const head: Head3e = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
+const head: SlmpHead = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 0 }
 
 interface Coded {
   readonly code: 'binary' | 'ascii'
@@ -15,9 +15,9 @@ interface Coded {
   readonly frame?: string
 }
 
-function protocolOf({ code, xyRadix, frame }: Coded): MelsecProtocol<Head3e> {
+function protocolOf({ code, xyRadix, frame }: Coded): MelsecProtocol<SlmpHead> {
   return new MelsecProtocol({
-    framing: frame3e(frame === '4E' || frame === 'ext' ? frame : '3E', code),
+    framing: slmpFraming(frame === '4E' || frame === 'ext' ? frame : '3E', code),
     head,
     profile: resolveProfile('generic'),
     code,
@@ -106,7 +106,7 @@ describe('answers', () => {
       ...(vector.form === undefined ? {} : { form: vector.form }),
       context: registration,
     })
-    const request = protocol.readRequest({ head, serial: undefined, body: exchange.body })
+    const request = protocol.readRequest(exchange)
     if ('unknown' in request) throw new Error('the PLC side does not know the command')
     const context = vector.registration ?? request.message
     const written = protocol.writeResponse(request, vector.message, context)

@@ -40,7 +40,7 @@ function asker(plc: PlcSimulator, options: ACompatibleOptions) {
   const protocol = aCompatibleProtocol({ asciiXy: 'octal', oddBits: 'exact', ...options })
   return (name: string, message: Message = {}): Message => {
     const asked = protocol.exchange(commandOf(name), message)
-    const answer = exchangeBytes(plc, protocol.framing.request.write(asked.head, 0, asked.body))
+    const answer = exchangeBytes(plc, asked.write(0))
     const scanned = protocol.framing.response.scan(answer, asked.responseLength)
     expect(scanned?.used).toBe(answer.length)
     if (scanned === undefined) throw new Error('no whole answer')

@@ -2,7 +2,7 @@ import { describe, expect, test } from '@jest/globals'
 import * as fc from 'fast-check'
 import { commands } from '../../src/melsec/commands/commands'
 import { frameFacts } from '../../src/melsec/frame/frames'
-import { frame3e } from '../../src/melsec/frame/slmp-frame'
+import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { profileIds } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { createPlcSimulator } from '../../src/simulator/server'
@@ -26,8 +26,8 @@ describe.each(profileIds.filter((id) => profiles[id].frames.includes('3E')))('%s
   )
 
   test.each(asked)('%s %s: any bytes are answered by frames or by silence, and the PLC lives on', (code, frame) => {
-    const framing = frame3e(frame, code)
-    const head = { route: { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }, timer: 0 }
+    const framing = slmpFraming(frame, code)
+    const head = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 0 }
     const ascii = (content: Buffer) => Buffer.from(content.toString('hex').toUpperCase(), 'latin1')
     const bodies = body.map((content) => (frame === 'ext' ? withSystemArea(content) : content))
     const request = bodies.map((content) => framing.request.write(head, 0, code === 'ascii' ? ascii(content) : content))
@@ -74,7 +74,7 @@ function framesIn(received: Buffer, code: 'binary' | 'ascii'): boolean {
   while (rest.length > 0) {
     const numbered = rest[0] === 0xd4 || rest.subarray(0, 2).toString() === 'D4' ? '4E' : '3E'
     const frame = rest[0] === 0xe8 ? 'ext' : numbered
-    const scanned = frame3e(frame, code).response.scan(rest, () => undefined)
+    const scanned = slmpFraming(frame, code).response.scan(rest, () => undefined)
     if (scanned === undefined) return false
     rest = rest.subarray(scanned.used)
   }

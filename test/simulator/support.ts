@@ -1,12 +1,14 @@
 /** A client's session joined to a simulated PLC in memory, with time made of numbers. */
+
 import { encode, type MessageInput, writerOf } from '../../src/codec/codec'
 import { EndCodeError } from '../../src/errors'
+import type { Job } from '../../src/link/link'
 import { Session } from '../../src/link/link'
 import type { Command, RequestOf, ResponseOf } from '../../src/melsec/commands/command'
 import type { DeviceForm } from '../../src/melsec/device/device-form'
 import { FORM_BITS } from '../../src/melsec/device/form'
 import { completeRoute, type Route } from '../../src/melsec/frame/route'
-import { frame3e, type Head3e } from '../../src/melsec/frame/slmp-frame'
+import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { anyFiles } from '../../src/melsec/profiles/files'
 import type { FrameName, Profile } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
@@ -18,6 +20,7 @@ import {
   type PlcSimulatorOptions,
 } from '../../src/simulator/server'
 import { type ManualClock, manualClock } from '../support/manual-clock'
+import { questionOf } from '../support/question'
 
 const ALL_FORMS: readonly DeviceForm[] = ['short', 'long', 'extendedShort', 'extendedLong']
 
@@ -48,19 +51,19 @@ export interface AskerOptions {
 
 /** Asks one request at a time over one connection; everything happens before `ask` returns. */
 export class Asker {
-  readonly protocol: MelsecProtocol<Head3e>
+  readonly protocol: MelsecProtocol<SlmpHead>
   readonly received: Buffer[] = []
   closed = false
-  readonly #head: Head3e
-  readonly #session: Session<Head3e>
+  readonly #head: SlmpHead
+  readonly #session: Session
   readonly #send: (bytes: Uint8Array) => void
   readonly close: () => void
 
   constructor(plc: PlcSimulator, options: AskerOptions = {}) {
     const { frame = plc.profile.frame === '4E' ? '4E' : '3E', code = 'binary', route, connect = {} } = options
     const kind = connect.kind ?? 'stream'
-    const framing = frame3e(frame, code)
-    this.#head = { route: completeRoute(route), timer: 0 }
+    const framing = slmpFraming(frame, code)
+    this.#head = { ...completeRoute(route), timer: 0 }
     this.protocol = new MelsecProtocol({
       framing,
       head: this.#head,
@@ -115,7 +118,7 @@ export class Asker {
 
   #exchange(body: Buffer) {
     const session = this.#session
-    const job = { head: this.#head, body, deadline: 1, responseLength: () => undefined }
+    const job: Job = { ...questionOf(this.protocol.framing, this.#head, body), deadline: 1 }
     session.submit(job, 0)
     for (let bytes = session.transmit(); bytes !== undefined; bytes = session.transmit()) this.#send(bytes)
     let frame: { readonly endCode: number; readonly body: Buffer } | undefined

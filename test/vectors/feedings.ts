@@ -2,27 +2,30 @@
  * The ways bytes can arrive: each frame of the manuals is fed to the scan functions and to the session (answers) or
  * responder (requests) whole, byte by byte, cut at every index, twice in one chunk, behind rubbish and one byte short.
  */
+
 import { expect, test } from '@jest/globals'
 import { ProtocolError } from '../../src/errors'
+import type { Head } from '../../src/link/link'
 import { type BodyLength, type Framing, Responder, Session, type SessionEvent } from '../../src/link/link'
+import { questionOf } from '../support/question'
 import type { Side } from './vectors'
 
 /** A frame with everything it must be read as. */
-export interface FrameCase<Head> {
-  readonly framing: Framing<Head>
+export interface FrameCase<H extends Head> {
+  readonly framing: Framing<H>
   readonly side: Side
   readonly bytes: Buffer
   /** What the scan gives as head. */
-  readonly head: Head
+  readonly head: H
   /** What a session that gets this answer has asked with. */
-  readonly askedHead: Head
+  readonly askedHead: H
   readonly body: Buffer
   readonly serial?: number
   /** Of an answer. */
   readonly endCode?: number
   /** What some PLCs send behind it. */
   readonly mayFollow?: Buffer
-  readonly bodyLength: BodyLength<Head>
+  readonly bodyLength: BodyLength
   /** Where the serial number stands: an answer gets the one the session asked with. */
   readonly serialAt?: { readonly start: number; readonly end: number }
 }
@@ -31,11 +34,11 @@ const DEADLINE = 1000
 /** No frame starts with it, in no code. */
 const RUBBISH = Buffer.of(0xff, 0xfe)
 
-function scan<Head>(given: FrameCase<Head>, bytes: Buffer) {
+function scan<H extends Head>(given: FrameCase<H>, bytes: Buffer) {
   return given.framing[given.side].scan(bytes, given.bodyLength)
 }
 
-function frameOf<Head>({ head, serial, body, side, endCode }: FrameCase<Head>) {
+function frameOf<H extends Head>({ head, serial, body, side, endCode }: FrameCase<H>) {
   return side === 'request' ? { head, serial, body } : { head, serial, endCode, body }
 }
 
@@ -46,10 +49,11 @@ function cuts(bytes: Buffer): Buffer[][] {
 }
 
 /** A session that has asked, and the answer with the serial number it asked with. */
-function asking<Head>(given: FrameCase<Head>, kind: 'stream' | 'datagram') {
+function asking<H extends Head>(given: FrameCase<H>, kind: 'stream' | 'datagram') {
   const session = new Session(given.framing, { kind, window: 1 })
   const { askedHead: head, bodyLength: responseLength } = given
-  session.submit({ head, body: Buffer.alloc(0), deadline: DEADLINE, responseLength }, 0)
+  // Its frames have the head of the case, so that it is only asked with such ones.
+  session.submit({ ...questionOf(given.framing, head, Buffer.alloc(0)), responseLength, deadline: DEADLINE }, 0)
   const sent = session.transmit()
   if (sent === undefined) throw new Error('the session sent nothing')
   const answer = Buffer.from(given.bytes)
@@ -58,14 +62,14 @@ function asking<Head>(given: FrameCase<Head>, kind: 'stream' | 'datagram') {
   return { session, answer }
 }
 
-function eventsOf<Head>(session: Session<Head>): SessionEvent<Head>[] {
-  const events: SessionEvent<Head>[] = []
+function eventsOf<_H extends Head>(session: Session): SessionEvent[] {
+  const events: SessionEvent[] = []
   for (let event = session.poll(); event !== undefined; event = session.poll()) events.push(event)
   return events
 }
 
 /** How the request of a session ended: the answer's end code and body, the error's code, or what else. */
-function outcomesOf<Head>(events: readonly SessionEvent<Head>[]) {
+function outcomesOf<_H extends Head>(events: readonly SessionEvent[]) {
   const ends = events.flatMap((event) => (event.kind === 'done' ? [event.outcome] : []))
   return ends.map((outcome) => {
     if (outcome.kind === 'answered') return { endCode: outcome.frame.endCode, body: outcome.frame.body.toString('hex') }
@@ -74,7 +78,7 @@ function outcomesOf<Head>(events: readonly SessionEvent<Head>[]) {
 }
 
 /** Registers the tests of one frame. `make` runs inside of each. */
-export function testFeedings<Head>(id: string, side: Side, make: () => FrameCase<Head>): void {
+export function testFeedings<H extends Head>(id: string, side: Side, make: () => FrameCase<H>): void {
   test(`${id}: written as printed`, () => {
     const { framing, head, askedHead, serial = 0, endCode = 0, body, bytes } = make()
     const written =
@@ -103,8 +107,8 @@ export function testFeedings<Head>(id: string, side: Side, make: () => FrameCase
   else testSession(id, make)
 }
 
-function testResponder<Head>(id: string, make: () => FrameCase<Head>): void {
-  const receiving = (given: FrameCase<Head>, kind: 'stream' | 'datagram' = 'stream') =>
+function testResponder<H extends Head>(id: string, make: () => FrameCase<H>): void {
+  const receiving = (given: FrameCase<H>, kind: 'stream' | 'datagram' = 'stream') =>
     new Responder(given.framing, kind, given.bodyLength)
 
   test(`${id}: one request however it is cut`, () => {
@@ -137,8 +141,8 @@ function testResponder<Head>(id: string, make: () => FrameCase<Head>): void {
   })
 }
 
-function testSession<Head>(id: string, make: () => FrameCase<Head>): void {
-  const answered = ({ endCode, body }: FrameCase<Head>) => ({ endCode, body: body.toString('hex') })
+function testSession<H extends Head>(id: string, make: () => FrameCase<H>): void {
+  const answered = ({ endCode, body }: FrameCase<H>) => ({ endCode, body: body.toString('hex') })
 
   test(`${id}: one answer however it is cut`, () => {
     const given = make()
@@ -191,7 +195,7 @@ function testSession<Head>(id: string, make: () => FrameCase<Head>): void {
 }
 
 /** Registers the test of a wrong sum check code: every other value of its two characters. */
-export function testWrongSum<Head>(id: string, make: () => FrameCase<Head>): void {
+export function testWrongSum<H extends Head>(id: string, make: () => FrameCase<H>): void {
   test(`${id}: any other sum check code is refused`, () => {
     const given = make()
     const right = given.bytes.subarray(-2).toString('latin1')

@@ -1,6 +1,6 @@
 import { checkNames, type OptionNames } from '../../basics/option-checks'
 import { ClosedError, type PlcError, RequestError } from '../../errors'
-import type { BodyLength, Exchange, Job, Priority, ResponseFrame } from '../../link/link'
+import type { BodyLength, Exchange, Head, Job, Priority, ResponseFrame } from '../../link/link'
 import { abortedBeforeSending, asPlcError } from './failure'
 
 /** What every call may say. */
@@ -71,12 +71,12 @@ export function optionProblem(options: CallOptions): RequestError | undefined {
 }
 
 /** What happens to the caller's promise. */
-export interface Settle<Head> {
+export interface Settle {
   /**
    * Reads the answer; throws what it turned out to be instead. `undefined`: nothing was asked (only connecting).
    * `roundTrip`: ms from sending to the answer.
    */
-  readonly answer: (frame: ResponseFrame<Head> | undefined, roundTrip: number) => void
+  readonly answer: (frame: ResponseFrame | undefined, roundTrip: number) => void
   readonly fail: (error: PlcError) => void
 }
 
@@ -88,11 +88,11 @@ interface CallFacts {
 }
 
 /** One request of the caller: the job the session carries. Settled exactly once. */
-export class Call<Head> implements Job<Head> {
+export class Call implements Job {
   #signal: AbortSignal | undefined
   #unwatch: (() => void) | undefined
   #settled = false
-  readonly #settle: Settle<Head>
+  readonly #settle: Settle
   /** Set for what opens a locked PLC: until then it returns no self test. */
   needsNoProof = false
   /** `false`: the call only waits for the connection. */
@@ -104,9 +104,9 @@ export class Call<Head> implements Job<Head> {
   readonly caller: unknown
 
   constructor(
-    readonly exchange: Exchange<Head, unknown>,
+    readonly exchange: Exchange<unknown>,
     readonly deadline: number,
-    settle: Settle<Head>,
+    settle: Settle,
     { sends = true, onlyOn, allowance, caller }: CallFacts = {},
   ) {
     this.#settle = settle
@@ -122,15 +122,15 @@ export class Call<Head> implements Job<Head> {
     return effect === 'read' || effect === 'diagnose' ? 'read' : 'control'
   }
 
-  get head(): Head {
-    return this.exchange.head
+  write(serial: number): Buffer {
+    return this.exchange.write(serial)
   }
 
-  get body(): Buffer {
-    return this.exchange.body
+  mismatch(answered: Head): string | undefined {
+    return this.exchange.mismatch(answered)
   }
 
-  get responseLength(): BodyLength<Head> {
+  get responseLength(): BodyLength {
     return this.exchange.responseLength
   }
 
@@ -141,7 +141,7 @@ export class Call<Head> implements Job<Head> {
   }
 
   /** Settles with the answer. @returns the error the answer turned out to be, if any. */
-  answer(frame: ResponseFrame<Head> | undefined, roundTrip = 0): PlcError | undefined {
+  answer(frame: ResponseFrame | undefined, roundTrip = 0): PlcError | undefined {
     if (!this.#finish()) return undefined
     try {
       this.#settle.answer(frame, roundTrip)

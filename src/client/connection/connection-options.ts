@@ -1,6 +1,6 @@
 // What a connection is told and what it tells.
 import type { EndCodeError } from '../../errors'
-import type { Echo, Exchange, Framing, RequestFrame } from '../../link/link'
+import type { AnswerFraming, Echo, Exchange, RequestFrame } from '../../link/link'
 import type { Clock } from '../../transport/clock'
 import type { OpenTransport } from '../../transport/transport'
 import type { Phase, SupervisorOptions } from './supervisor'
@@ -35,24 +35,24 @@ export interface Silence {
 }
 
 /** A request that proves a connection: any answer to it, also a refusal, proves that the PLC is there. */
-export interface Probe<Head> {
+export interface Probe {
   /** With its number, as people find it in the manual: `Read Type Name (0101)`. */
   readonly name: string
-  readonly exchange: () => Exchange<Head, unknown>
+  readonly exchange: () => Exchange<unknown>
 }
 
 /** How a locked PLC is opened: before everything else on each connection. */
-export interface Unlocking<Head> {
+export interface Unlocking {
   /** `undefined`: there is nothing to unlock. */
-  readonly exchange: () => Exchange<Head, unknown> | undefined
+  readonly exchange: () => Exchange<unknown> | undefined
   /** The refusal would be repeated, and the PLC lock out: no further attempt before `retry()`. */
   readonly isFinal: (error: EndCodeError) => boolean
   /** A request was refused because the PLC is locked (again). */
   readonly isLocked: (error: EndCodeError) => boolean
 }
 
-export interface ConnectionOptions<Head> {
-  readonly framing: Framing<Head>
+export interface ConnectionOptions {
+  readonly framing: AnswerFraming
   readonly openTransport: OpenTransport
   readonly clock: Clock
   readonly supervisor: SupervisorOptions
@@ -63,19 +63,19 @@ export interface ConnectionOptions<Head> {
   /** Default deadline of a call, ms. */
   readonly timeout: number
   /** Opens a PLC that is locked by a remote password. */
-  readonly unlocking?: Unlocking<Head>
+  readonly unlocking?: Unlocking
   /**
    * The first request on a new connection, behind unlocking. Where it gets no answer the next one is tried, on another
    * connection. None: the first request of the program proves the connection.
    */
-  readonly probes: readonly Probe<Head>[]
+  readonly probes: readonly Probe[]
   /**
    * A request that changes nothing, and how its answer is known among all others: a self test with a pattern that was
    * not used before. For a fixed local port and a frame without serial number.
    */
-  readonly proof: () => Echo<Head>
+  readonly proof: () => Echo
   /** Ranked causes, most likely first. */
   readonly explainSilence: (silence: Silence) => readonly string[]
   readonly onState: (state: ConnectionState) => void
-  readonly onUnsolicited: (frame: RequestFrame<Head>) => void
+  readonly onUnsolicited: (frame: RequestFrame) => void
 }

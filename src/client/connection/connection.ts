@@ -1,7 +1,7 @@
 // One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
-// It knows no protocol family; Exchange and Framing bring that.
+// It knows no protocol family; Exchange and AnswerFraming bring that.
 import type { ConnectionError, PlcError } from '../../errors'
-import { type Echo, type Exchange, Fence, type ResponseFrame, RoundTrips, SerialNumbers } from '../../link/link'
+import { type Exchange, Fence, type ResponseFrame, RoundTrips, SerialNumbers } from '../../link/link'
 import type { Clock } from '../../transport/clock'
 import { Alarm } from './alarm'
 import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
@@ -19,18 +19,18 @@ export type { ConnectionOptions, ConnectionState, Silence, TracedFrame } from '.
 /** How soon the proof of a fixed port is asked again, as a part of the deadline of a usual call: datagrams get lost. */
 const PROOFS_PER_TIMEOUT = 8
 
-export class Connection<Head> {
-  readonly #options: ConnectionOptions<Head>
+export class Connection {
+  readonly #options: ConnectionOptions
   readonly #clock: Clock
   readonly #supervisor: Supervisor
   readonly #counters = new Counters()
   readonly #alarm: Alarm
   readonly #signals = new Signals()
-  readonly #owner: LineOwner<Head>
-  readonly #probing: Probing<Head>
+  readonly #owner: LineOwner
+  readonly #probing: Probing
   /** Calls that wait for the connection. */
-  #held: Call<Head>[] = []
-  #line: Line<Head> | undefined
+  #held: Call[] = []
+  #line: Line | undefined
   #answeredBefore = false
   #since: number
   #generation = 0
@@ -38,7 +38,7 @@ export class Connection<Head> {
   /** Set by the owner to see every frame; costs nothing while unset. */
   onTrace: ((frame: TracedFrame) => void) | undefined
 
-  constructor(options: ConnectionOptions<Head>) {
+  constructor(options: ConnectionOptions) {
     this.#options = options
     this.#clock = options.clock
     this.#supervisor = new Supervisor(options.supervisor)
@@ -93,22 +93,18 @@ export class Connection<Head> {
   }
 
   /** Sends a request when its turn comes and resolves with its answer. Every rejection is a `PlcError`. */
-  request<T>(exchange: Exchange<Head, T>, options: BoundOptions = {}): Promise<T> {
+  request<T>(exchange: Exchange<T>, options: BoundOptions = {}): Promise<T> {
     return this.#ask(exchange, options, (answer) => answer)
   }
 
   /** As `request`, for how long it took: ms from sending to the answer, without connecting and waiting. */
-  roundTrip(exchange: Exchange<Head, unknown>, options: CallOptions = {}): Promise<number> {
+  roundTrip(exchange: Exchange<unknown>, options: CallOptions = {}): Promise<number> {
     return this.#ask(exchange, options, (_answer, roundTrip) => roundTrip)
   }
 
-  #ask<T, R>(
-    exchange: Exchange<Head, T>,
-    options: BoundOptions,
-    result: (answer: T, roundTrip: number) => R,
-  ): Promise<R> {
+  #ask<T, R>(exchange: Exchange<T>, options: BoundOptions, result: (answer: T, roundTrip: number) => R): Promise<R> {
     return new Promise<R>((resolve, fail) => {
-      const answer = (frame: ResponseFrame<Head> | undefined, roundTrip: number) => {
+      const answer = (frame: ResponseFrame | undefined, roundTrip: number) => {
         if (frame !== undefined) resolve(result(exchange.decode(frame), roundTrip))
       }
       this.#submit(exchange, { answer, fail }, options, this.#options.timeout, true)
@@ -125,20 +121,13 @@ export class Connection<Head> {
     // Longer than an attempt can take with all its probes, so that it ends with the attempt's own reason.
     const { connectTimeout, supervisor, probes } = this.#options
     const timeout = Math.max(1, probes.length) * (2 * connectTimeout + supervisor.settleGap) + 1
-    // It only waits and is never sent: what proves the connection is the attempt's own probe.
-    const exchange = connecting(this.#options.proof())
     return new Promise<void>((resolve, fail) => {
-      this.#submit(exchange, { answer: () => resolve(), fail }, options, timeout, false)
+      // What proves the connection is the attempt's own probe.
+      this.#submit(CONNECTING, { answer: () => resolve(), fail }, options, timeout, false)
     })
   }
 
-  #submit(
-    exchange: Exchange<Head, unknown>,
-    settle: Settle<Head>,
-    options: BoundOptions,
-    usual: number,
-    sends: boolean,
-  ): void {
+  #submit(exchange: Exchange<unknown>, settle: Settle, options: BoundOptions, usual: number, sends: boolean): void {
     const refusal = optionProblem(options) ?? this.#refusalOf(exchange, options.signal)
     if (refusal !== undefined) {
       settle.fail(refusal)
@@ -157,7 +146,7 @@ export class Connection<Head> {
     this.#guard(() => this.#start(call))
   }
 
-  #refusalOf({ title }: Exchange<Head, unknown>, signal: AbortSignal | undefined): PlcError | undefined {
+  #refusalOf({ title }: Exchange<unknown>, signal: AbortSignal | undefined): PlcError | undefined {
     const { name, hopeful, error } = this.#supervisor
     if (name === 'closed' || this.#finishing !== undefined) return failure.closedBeforeSending(title)
     if (signal?.aborted === true) return failure.abortedBeforeSending(title, signal.reason)
@@ -175,7 +164,7 @@ export class Connection<Head> {
     return this.#held.length + (this.#line?.queued ?? 0)
   }
 
-  #start(call: Call<Head>): void {
+  #start(call: Call): void {
     const expired = this.#expired()
     if (expired !== undefined) this.#lost(expired)
     if (call.onlyOn !== undefined && (this.#supervisor.name !== 'connected' || call.onlyOn !== this.#generation)) {
@@ -192,7 +181,7 @@ export class Connection<Head> {
     this.#schedule()
   }
 
-  #abort(call: Call<Head>): void {
+  #abort(call: Call): void {
     const held = this.#held.indexOf(call)
     if (held >= 0) this.#held.splice(held, 1)
     // A call that nobody knows any more has just been settled in the session: only "unknown" is certain to be true.
@@ -213,7 +202,7 @@ export class Connection<Head> {
   }
 
   /** Sends a last request if the PLC is there, takes nothing more, and ends everything. */
-  finish(last: Exchange<Head, unknown>, timeout: number): Promise<void> {
+  finish(last: Exchange<unknown>, timeout: number): Promise<void> {
     if (this.#finishing !== undefined) return this.#finishing
     if (this.#supervisor.name !== 'connected' || this.#expired() !== undefined) {
       this.close()
@@ -297,7 +286,7 @@ export class Connection<Head> {
   }
 
   /** A call on a connection that is gone. What was sent is never sent again; the rest may wait for the next one. */
-  #handedBack(call: Call<Head>, sent: boolean, reason: PlcError): void {
+  #handedBack(call: Call, sent: boolean, reason: PlcError): void {
     const { title, answered } = call.exchange
     if (sent && !answered && failure.isGone(reason)) takeAsDone(call)
     else if (sent) call.fail(failure.lostInFlight(title, reason))
@@ -307,7 +296,7 @@ export class Connection<Head> {
   }
 
   /** A call that waited for the connection in vain. */
-  #notConnected(call: Call<Head>): void {
+  #notConnected(call: Call): void {
     if (call.sends) this.#counters.add('timeouts')
     const { peer = 'the PLC', isOpen: open = false, probing: asked } = this.#line ?? {}
     const causes = open ? this.#owner.causes(peer, asked) : []
@@ -340,9 +329,18 @@ export class Connection<Head> {
   }
 }
 
-/** Stands for a call that only waits for the connection; the head is as good as any other. */
-function connecting<Head>({ head, responseLength }: Echo<Head>): Exchange<Head, undefined> {
-  const body = Buffer.alloc(0)
-  const nothing = { effect: 'diagnose', message: {}, answered: true, decode: () => undefined } as const
-  return { title: failure.CONNECTING, head, body, responseLength, ...nothing }
+const NOTHING = Buffer.alloc(0)
+
+/** Stands for a call that only waits for the connection: it is never sent. */
+const CONNECTING: Exchange<undefined> = {
+  title: failure.CONNECTING,
+  effect: 'diagnose',
+  message: {},
+  body: NOTHING,
+  answered: true,
+  write: () => NOTHING,
+  mismatch: () => undefined,
+  responseLength: () => undefined,
+  answerBody: () => undefined,
+  decode: () => undefined,
 }

@@ -22,10 +22,10 @@ import { tellListener } from './tell-listener'
 const SILENT_REQUESTS = 2
 
 /** What a line needs of the connection it is a part of. */
-export interface LineOwner<Head> {
+export interface LineOwner {
   readonly counters: Counters
   readonly serials: SerialNumbers
-  readonly fence: Fence<Head>
+  readonly fence: Fence
   readonly roundTrips: RoundTrips
   /** The PLC has answered the first request; or nothing is asked, and the first request of the program proves it. */
   verified(answered: boolean): void
@@ -42,22 +42,22 @@ export interface LineOwner<Head> {
   readonly unanswered: readonly string[]
 }
 
-type Done<Head> = Extract<SessionEvent<Head, Call<Head>>, { kind: 'done' }>
+type Done = Extract<SessionEvent<Call>, { kind: 'done' }>
 
-type TooLate = Extract<Outcome<unknown>, { kind: 'tooLate' }>
+type TooLate = Extract<Outcome, { kind: 'tooLate' }>
 
-export class Line<Head> {
-  readonly #options: ConnectionOptions<Head>
-  readonly #owner: LineOwner<Head>
+export class Line {
+  readonly #options: ConnectionOptions
+  readonly #owner: LineOwner
   #transport: Transport | undefined
-  #session: Session<Head, Call<Head>> | undefined
-  readonly #opening: Opening<Head>
+  #session: Session<Call> | undefined
+  readonly #opening: Opening
   #openBy: number | undefined
   #silent = 0
   #receivedAnything = false
   #ended = false
 
-  constructor(options: ConnectionOptions<Head>, owner: LineOwner<Head>, probe: NextProbe<Head> | undefined) {
+  constructor(options: ConnectionOptions, owner: LineOwner, probe: NextProbe | undefined) {
     this.#options = options
     this.#owner = owner
     this.#opening = new Opening(options, probe)
@@ -122,7 +122,7 @@ export class Line<Head> {
     const { serials, roundTrips } = this.#owner
     this.#openBy = undefined
     const options = { kind: transport.kind, window: inFlight, serials, roundTrips }
-    this.#session = new Session<Head, Call<Head>>(framing, options, this.#fenceFor(transport))
+    this.#session = new Session<Call>(framing, options, this.#fenceFor(transport))
     const first = this.#opening.begin(clock.now())
     if (first === undefined) this.#owner.verified(false)
     else this.submit(first)
@@ -130,7 +130,7 @@ export class Line<Head> {
   }
 
   /** Where a late answer can come to the port of the next request, also one of the program before. */
-  #fenceFor({ kind, renewable }: Transport): Fence<Head> | undefined {
+  #fenceFor({ kind, renewable }: Transport): Fence | undefined {
     return kind === 'stream' || renewable ? undefined : this.#owner.fence
   }
 
@@ -168,12 +168,12 @@ export class Line<Head> {
   }
 
   /** Sends it when its turn comes. `flush` afterwards. */
-  submit(call: Call<Head>): void {
+  submit(call: Call): void {
     this.#session?.submit(call, this.#options.clock.now())
   }
 
   /** Gives a call up. `flush` afterwards. @returns whether it had been sent; `undefined` when it is not known here */
-  abandon(call: Call<Head>): boolean | undefined {
+  abandon(call: Call): boolean | undefined {
     return this.#session?.abandon(call, this.#options.clock.now())
   }
 
@@ -224,7 +224,7 @@ export class Line<Head> {
   }
 
   /** Ends it, and everything on it: what has no answer is handed back with whether it had been sent. */
-  end(handBack: (call: Call<Head>, sent: boolean) => void): void {
+  end(handBack: (call: Call, sent: boolean) => void): void {
     if (this.#ended) return
     this.#ended = true
     this.#transport?.close()
@@ -244,7 +244,7 @@ export class Line<Head> {
     if (!this.#ended) this.#transport?.send(bytes)
   }
 
-  #take(event: SessionEvent<Head, Call<Head>>): void {
+  #take(event: SessionEvent<Call>): void {
     const { counters } = this.#owner
     switch (event.kind) {
       case 'done':
@@ -274,7 +274,7 @@ export class Line<Head> {
     }
   }
 
-  #settle({ job, outcome, sentAt }: Done<Head>): void {
+  #settle({ job, outcome, sentAt }: Done): void {
     if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
     else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
     else if (outcome.kind === 'unproved') this.#unproved(job)
@@ -283,7 +283,7 @@ export class Line<Head> {
     else if (outcome.kind === 'failed') job.fail(outcome.error)
   }
 
-  #answered(job: Call<Head>, frame: ResponseFrame<Head>, sentAt: number | undefined): void {
+  #answered(job: Call, frame: ResponseFrame, sentAt: number | undefined): void {
     const { counters } = this.#owner
     const isProbe = this.#opening.owns(job)
     this.#silent = 0
@@ -306,7 +306,7 @@ export class Line<Head> {
     }
   }
 
-  #timedOut(job: Call<Head>, sent: boolean): void {
+  #timedOut(job: Call, sent: boolean): void {
     const isProbe = this.#opening.owns(job)
     if (sent && !job.exchange.answered) {
       takeAsDone(job)
@@ -327,19 +327,19 @@ export class Line<Head> {
   }
 
   /** It waited so long that an answer would not come in time: the connection is as good as before. */
-  #tooLate(job: Call<Head>, { waiting, roundTrip }: TooLate): void {
+  #tooLate(job: Call, { waiting, roundTrip }: TooLate): void {
     if (!this.#opening.owns(job)) this.#owner.counters.add('overloaded')
     job.fail(failure.overloaded(job.exchange.title, waiting, roundTrip))
   }
 
   /** What must come back before a request on a fixed port did not: the request was not sent. */
-  #unproved(job: Call<Head>): void {
+  #unproved(job: Call): void {
     if (!this.#opening.owns(job)) this.#owner.counters.add('timeouts')
     const causes = [failure.NO_SELF_TEST, ...this.#causes()]
     this.#silence(job, causes, failure.unproved(job.exchange.title, this.peer, causes))
   }
 
-  #silence(job: Call<Head>, causes: readonly string[], error: PlcError): void {
+  #silence(job: Call, causes: readonly string[], error: PlcError): void {
     // Without an answer of any kind there is nothing to lose; the probe is such a case.
     const unproved = this.#opening.owns(job) || !this.#receivedAnything
     job.fail(error)
@@ -351,6 +351,6 @@ export class Line<Head> {
 }
 
 /** A command that is not answered when it succeeds (Remote Reset): silence and a lost connection are its success. */
-export function takeAsDone<Head>(call: Call<Head>): void {
-  call.answer({ head: call.head, serial: undefined, endCode: 0, body: Buffer.alloc(0) })
+export function takeAsDone(call: Call): void {
+  call.answer({ head: {}, serial: undefined, endCode: 0, body: Buffer.alloc(0) })
 }

@@ -12,23 +12,23 @@ import type { NextProbe } from './probing'
  */
 const UNLOCKED_FOR = 9 * 60_000
 
-type Options<Head> = Pick<ConnectionOptions<Head>, 'unlocking' | 'timeout' | 'connectTimeout'>
+type Options = Pick<ConnectionOptions, 'unlocking' | 'timeout' | 'connectTimeout'>
 
-export class Opening<Head> {
-  readonly #options: Options<Head>
-  readonly #probe: NextProbe<Head> | undefined
-  #call: Call<Head> | undefined
+export class Opening {
+  readonly #options: Options
+  readonly #probe: NextProbe | undefined
+  #call: Call | undefined
   #unlocking = false
   #corrected = false
   #heardAt = 0
 
-  constructor(options: Options<Head>, probe: NextProbe<Head> | undefined) {
+  constructor(options: Options, probe: NextProbe | undefined) {
     this.#options = options
     this.#probe = probe
   }
 
   /** The first call of a new connection; `undefined`: nothing is asked. */
-  begin(now: number): Call<Head> | undefined {
+  begin(now: number): Call | undefined {
     const unlock = this.#options.unlocking?.exchange()
     this.#unlocking = unlock !== undefined
     this.#corrected = false
@@ -39,7 +39,7 @@ export class Opening<Head> {
   }
 
   /** The client waits for half as long where another probe follows: a call needs two answers within its time anyway. */
-  #beginProbe(now: number): Call<Head> | undefined {
+  #beginProbe(now: number): Call | undefined {
     if (this.#probe === undefined) return undefined
     const { probe, hasNext } = this.#probe
     return this.#make(probe.exchange(), now, hasNext ? 0.5 : 1)
@@ -56,12 +56,12 @@ export class Opening<Head> {
   }
 
   /** Whether the call is the opening's own. */
-  owns(call: Call<Head>): boolean {
+  owns(call: Call): boolean {
     return call === this.#call
   }
 
   /** Its call was answered. @returns the next one, why there is none, or `undefined` when the connection is open */
-  next(refusal: PlcError | undefined, now: number): Call<Head> | PlcError | undefined {
+  next(refusal: PlcError | undefined, now: number): Call | PlcError | undefined {
     // Any answer to the probe, also a refusal, proves that the PLC is there.
     this.#call = undefined
     if (!this.#unlocking) return undefined
@@ -96,7 +96,7 @@ export class Opening<Head> {
     return unlocking.exchange() === undefined ? undefined : failure.lockedAgain(peer, refusal)
   }
 
-  #make(exchange: Exchange<Head, unknown>, now: number, share: number): Call<Head> {
+  #make(exchange: Exchange<unknown>, now: number, share: number): Call {
     const { timeout, connectTimeout } = this.#options
     // Nobody awaits it; how it ends is seen by the connection.
     this.#call = new Call(exchange, now + share * Math.min(timeout, connectTimeout), {

@@ -3,23 +3,23 @@ import { ConnectionError, type PlcError, ProtocolError } from '../../errors'
 import type { Probe } from './connection-options'
 
 /** A probe and how long it may take. */
-export interface NextProbe<Head> {
-  readonly probe: Probe<Head>
+export interface NextProbe {
+  readonly probe: Probe
   /** Whether another one follows at once when it gets no answer: then it may take half the time only. */
   readonly hasNext: boolean
 }
 
-export class Probing<Head> {
-  readonly #probes: readonly Probe<Head>[]
+export class Probing {
+  readonly #probes: readonly Probe[]
   #at = 0
   #unanswered: readonly string[] = []
 
-  constructor(probes: readonly Probe<Head>[]) {
+  constructor(probes: readonly Probe[]) {
     this.#probes = probes
   }
 
   /** For the next connection; `undefined`: the first request of the program proves it. */
-  get next(): NextProbe<Head> | undefined {
+  get next(): NextProbe | undefined {
     const probe = this.#probes[this.#at]
     return probe && { probe, hasNext: this.#at < this.#probes.length - 1 }
   }

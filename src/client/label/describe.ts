@@ -1,11 +1,12 @@
 // Label requests as people see them. Names are known beforehand; types, and with them sizes, once the PLC has said them.
+
 import { measure, type Named } from '../../codec/codec'
 import type { Exchange } from '../../link/link'
 import type { Command } from '../../melsec/commands/command'
 import { type CommandName, commands } from '../../melsec/commands/commands'
 import { subcommandOf } from '../../melsec/device/form'
 import { wordsOfArea } from '../../melsec/label/codec'
-import type { ClientProtocol } from '../../melsec/protocol'
+import type { PlanProtocol } from '../plan/limit'
 import type { PlanDescription, RequestDescription } from '../plan/request'
 import { pointsText } from '../plan/request'
 import { ArrayParts } from './array'
@@ -17,17 +18,15 @@ import type { LabelType } from './value'
 /** What is known of the labels of a plan. */
 export type KnownTypes = ReadonlyMap<AskedLabel, LabelType>
 
-const NOTHING = Buffer.alloc(0)
-
 /** Only the requests are asked for: nothing is sent. */
-function requestsOf<Head>(protocol: ClientProtocol<Head>): LabelRequests {
+function requestsOf(protocol: PlanProtocol): LabelRequests {
   const send = () => Promise.reject(new Error('a description sends nothing'))
   return new LabelRequests({ protocol, send })
 }
 
 /** The requests that read labels. */
-export function describeLabelRead<Head>(
-  protocol: ClientProtocol<Head>,
+export function describeLabelRead(
+  protocol: PlanProtocol,
   items: readonly LabelInItems[],
   known: KnownTypes,
 ): PlanDescription {
@@ -55,8 +54,8 @@ export function describeLabelRead<Head>(
 const UNKNOWN_TYPES =
   'The PLC says the types of labels when it is asked: how long its answers are is known after the first reading.'
 
-function randomRequest<Head>(
-  protocol: ClientProtocol<Head>,
+function randomRequest(
+  protocol: PlanProtocol,
   asked: readonly AskedLabel[],
   known: KnownTypes,
   textOf: (label: AskedLabel) => string,
@@ -74,7 +73,7 @@ function randomRequest<Head>(
   }
 }
 
-function arrayRequest<Head>(protocol: ClientProtocol<Head>, pieces: readonly ArrayRead[]): RequestDescription {
+function arrayRequest(protocol: PlanProtocol, pieces: readonly ArrayRead[]): RequestDescription {
   const arrays = pieces.map(({ extent }) => ({
     typeId: 0,
     area: { ...extent, words: new Array<number>(wordsOfArea(extent)).fill(0) },
@@ -89,21 +88,21 @@ function arrayRequest<Head>(protocol: ClientProtocol<Head>, pieces: readonly Arr
 }
 
 /** Bytes of the frame of an answer. */
-function answerBytes<Head>(
-  { code, framing }: ClientProtocol<Head>,
+function answerBytes(
+  protocol: PlanProtocol,
   { request, response }: Command,
-  { head, message: asked }: Exchange<Head, unknown>,
+  { message: asked }: Exchange<unknown>,
   message: Readonly<Record<string, unknown>>,
 ): number {
   const context = { shape: request, message: asked }
-  const bytes = measure(response, { ascii: code === 'ascii', form: 0, message, context })
-  return framing.response.write(head, 0, 0, Buffer.alloc(bytes)).length
+  const bytes = measure(response, { ascii: protocol.code === 'ascii', form: 0, message, context })
+  return protocol.answerBytes(bytes)
 }
 
-function described<Head>(
-  { framing, profile }: ClientProtocol<Head>,
+function described(
+  { profile }: PlanProtocol,
   command: Named<Command, CommandName>,
-  { head, body, message }: Exchange<Head, unknown>,
+  { message, write }: Exchange<unknown>,
   points: number,
 ): Omit<RequestDescription, 'items'> {
   const { abbreviations } = message as { readonly abbreviations: readonly { readonly name: string }[] }
@@ -112,14 +111,14 @@ function described<Head>(
     command: command.name,
     subcommand: subcommandOf(command, 'short', profile),
     points,
-    requestBytes: framing.request.write(head, 0, body).length,
+    requestBytes: write(0).length,
     text: `${command.title}: ${[pointsText(points, 'label'), ...short].join(', ')}`,
   }
 }
 
 /** The requests that read the types of labels before they are written. */
-export function describeLabelTypes<Head>(
-  protocol: ClientProtocol<Head>,
+export function describeLabelTypes(
+  protocol: PlanProtocol,
   items: readonly LabelInItems[],
 ): readonly RequestDescription[] {
   // Without counts: the elements of arrays are not read.
@@ -131,10 +130,7 @@ export function describeLabelTypes<Head>(
  * The requests that write labels which follow one another. One of them may turn out to be several: the length of the
  * values is not known without the types.
  */
-export function describeLabelWrite<Head>(
-  protocol: ClientProtocol<Head>,
-  items: readonly LabelInItems[],
-): RequestDescription[] {
+export function describeLabelWrite(protocol: PlanProtocol, items: readonly LabelInItems[]): RequestDescription[] {
   const runs: LabelInItems[][] = []
   for (const item of items) {
     const last = runs.at(-1)
@@ -143,12 +139,11 @@ export function describeLabelWrite<Head>(
   }
   return runs.map((run): RequestDescription => {
     const command = run.some(isArray) ? commands.writeArrayLabels : commands.writeRandomLabels
-    const { head } = protocol.exchange(commands.readRandomLabels, randomMessage(run.map(({ label }) => label)))
     return {
       command: command.name,
       subcommand: subcommandOf(command, 'short', protocol.profile),
       points: run.length,
-      responseBytes: protocol.framing.response.write(head, 0, 0, NOTHING).length,
+      responseBytes: protocol.answerBytes(0),
       items: run.map(({ text }) => text),
       text: `${command.title}: ${pointsText(run.length, 'label')}`,
     }

@@ -1,7 +1,8 @@
 // What an item that is a label is, as far as it is known without the PLC.
-import type { ClientProtocol } from '../../melsec/protocol'
+
 import { formatType } from '../../value/value'
 import type { DeviceExplanation } from '../plan/explain'
+import type { PlanProtocol } from '../plan/limit'
 import { describeLabelRead } from './describe'
 import type { LabelInItems } from './in-items'
 
@@ -27,7 +28,7 @@ export interface LabelExplanation {
 export type ItemExplanation = DeviceExplanation | LabelExplanation
 
 /** What reading the label would do, without doing it. */
-export function explainLabel<Head>(item: LabelInItems, protocol: ClientProtocol<Head>): LabelExplanation {
+export function explainLabel(item: LabelInItems, protocol: PlanProtocol): LabelExplanation {
   const { address, type, count } = item.label
   const { requests, notes } = describeLabelRead(protocol, [item], new Map())
   return {

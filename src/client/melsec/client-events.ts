@@ -1,8 +1,8 @@
 // What the client gives and takes, beside its calls.
 import type { ProtocolError } from '../../errors'
-import type { Head3e } from '../../melsec/frame/slmp-frame'
+import type { Route } from '../../melsec/frame/route'
 import type { ConnectionState } from '../connection/connection-options'
-import type { TraceEntry } from './trace'
+import type { TraceEntry } from '../connection/trace'
 
 /** What a client tells those who listen. */
 export interface ClientEvents {
@@ -18,7 +18,7 @@ export interface ClientEvents {
 
 /** A frame that arrived in the form of a request. */
 export interface UnsolicitedFrame {
-  readonly route: Head3e['route']
+  readonly route: Route
   /** Command, subcommand and data, in the data code of the connection. */
   readonly body: Buffer
   /** Milliseconds since 1970. */
@@ -30,7 +30,7 @@ export interface UnsolicitedFrame {
 /** What a program in the PLC has sent of its own accord (SLMP reference manual 5.11). */
 export interface OnDemand {
   /** As the frame says it. */
-  readonly route: Head3e['route']
+  readonly route: Route
   /** 0 to 1920 bytes, low byte of each word first. */
   readonly data: Buffer
   /** The same as words, 0 to 65535 each; `undefined` when the number of bytes is odd. */

@@ -7,11 +7,11 @@ import { shown } from '../../basics/show'
 import { ProtocolError, RequestError } from '../../errors'
 import type { Echo, Exchange, ResponseFrame } from '../../link/link'
 import { pcTypeCodes } from '../../melsec/a-compatible/type-code'
+import type { ClientProtocol } from '../../melsec/client-protocol'
 import type { Command, ResponseOf } from '../../melsec/commands/command'
 import { commands } from '../../melsec/commands/commands'
 import { decimalWNote, modelOf } from '../../melsec/model-code'
 import type { Profile, ProfileId } from '../../melsec/profiles/profile'
-import type { ClientProtocol } from '../../melsec/protocol'
 import type { Clock } from '../../transport/clock'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { Deadline } from '../connection/deadline'
@@ -199,10 +199,10 @@ const LOOPBACK = '0123456789ABCDEF'
  * Self Test: what does not come back as it was sent is an answer that breaks the protocol, and ends the connection.
  * Its decoder throws ProtocolError ECHO_MISMATCH then.
  */
-export function selfTestOf<Head>(
-  protocol: Pick<ClientProtocol<Head>, 'exchange'>,
+export function selfTestOf(
+  protocol: Pick<ClientProtocol, 'exchange'>,
   data = LOOPBACK,
-): Exchange<Head, ResponseOf<typeof commands.selfTest>> {
+): Exchange<ResponseOf<typeof commands.selfTest>> {
   const asked = protocol.exchange(commands.selfTest, { data })
   return {
     ...asked,
@@ -218,17 +218,17 @@ export function selfTestOf<Head>(
  * Makes self tests whose pattern was not used before, also by the program that had this port before: a number that goes
  * up, behind eight random digits.
  */
-export function proofs<Head>(protocol: Pick<ClientProtocol<Head>, 'exchange'>, random: () => number): () => Echo<Head> {
+export function proofs(protocol: Pick<ClientProtocol, 'exchange'>, random: () => number): () => Echo {
   let count = 0
   return () => {
     count = (count + 1) % 0x1_0000_0000
     const pattern = [Math.floor(random() * 0x1_0000_0000), count].map(digits).join('')
-    const { head, body, responseLength, decode } = protocol.exchange(commands.selfTest, { data: pattern })
-    const read = (frame: ResponseFrame<Head>) => (decode(frame).data === pattern ? 'own' : 'another')
+    const { write, mismatch, responseLength, decode } = protocol.exchange(commands.selfTest, { data: pattern })
+    const read = (frame: ResponseFrame) => (decode(frame).data === pattern ? 'own' : 'another')
     // As characters, or in ASCII code of 1E frames as two digits for each.
     const forms = [Buffer.from(pattern), Buffer.from(Buffer.from(pattern).toString('hex'))]
     const mayBeOwn = (datagram: Buffer) => forms.some((form) => datagram.includes(form))
-    return { head, body, responseLength, mayBeOwn, read }
+    return { write, mismatch, responseLength, mayBeOwn, read }
   }
 }
 

@@ -1,8 +1,7 @@
 // How the requests of a file transfer are sent: one after another, each with its own deadline.
 import { ClosedError } from '../../errors'
 import type { Exchange } from '../../link/link'
-import type { Head3e } from '../../melsec/frame/slmp-frame'
-import type { ClientProtocol } from '../../melsec/protocol'
+import type { ClientProtocol } from '../../melsec/client-protocol'
 import type { Connection } from '../connection/connection'
 import { Deadline } from '../connection/deadline'
 import type { FileParts } from '../file/files'
@@ -13,10 +12,10 @@ import type { MelsecClientOptions, Settings } from './options'
 interface Lent {
   readonly settings: Settings
   readonly options: Pick<MelsecClientOptions, 'localPort'>
-  readonly protocol: ClientProtocol<Head3e>
-  readonly connection: Connection<Head3e>
+  readonly protocol: ClientProtocol
+  readonly connection: Connection
   /** @throws RequestError NOT_PERMITTED */
-  readonly permit: (effect: Exchange<Head3e, unknown>['effect'], title: string) => void
+  readonly permit: (effect: Exchange<unknown>['effect'], title: string) => void
 }
 
 export function filePartsOf({ settings, options, protocol, connection, permit }: Lent): FileParts {

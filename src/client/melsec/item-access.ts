@@ -6,10 +6,9 @@ import { shown } from '../../basics/show'
 import { RequestError } from '../../errors'
 import type { Exchange } from '../../link/link'
 import { longCounterHint, namedAsFx5 } from '../../melsec/a-compatible/rules'
+import type { ClientProtocol } from '../../melsec/client-protocol'
 import { commands } from '../../melsec/commands/commands'
 import type { AddressOptions } from '../../melsec/device/address'
-import type { Head3e } from '../../melsec/frame/slmp-frame'
-import type { ClientProtocol } from '../../melsec/protocol'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { isItem, listOf } from '../item/input-checks'
 import { type Item, type ParsedItem, parseItem } from '../item/item'
@@ -38,17 +37,17 @@ const PREPARED_PLANS = 500
 /** What the client lends to its items. */
 export interface ItemParts {
   readonly settings: Settings
-  readonly protocol: ClientProtocol<Head3e>
+  readonly protocol: ClientProtocol
   readonly registration: Registration
   /** One call: all its requests share one deadline. @throws RequestError BAD_OPTION */
-  readonly call: (options: CallOptions | undefined) => OpenCall<Head3e>
+  readonly call: (options: CallOptions | undefined) => OpenCall
   /** @throws RequestError NOT_PERMITTED */
-  readonly permit: (effect: Exchange<Head3e, unknown>['effect'], title: string) => void
+  readonly permit: (effect: Exchange<unknown>['effect'], title: string) => void
 }
 
 export class ItemAccess {
   readonly #parts: ItemParts
-  readonly #lender: LabelLender<Head3e>
+  readonly #lender: LabelLender
   readonly #prepared = new Map<string, ReadPlan>()
   /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
   #monitored = false
@@ -117,8 +116,7 @@ export class ItemAccess {
       // Before anything is sent, also the reading of a word that a bit is changed in, or of the type of a label.
       permit('write', 'Writing')
       const opened = call(callOptions)
-      const run = (send: SendExchange<Head3e>) =>
-        plan instanceof MixedWrite ? plan.run({ ...opened, send }) : plan.run(send)
+      const run = (send: SendExchange) => (plan instanceof MixedWrite ? plan.run({ ...opened, send }) : plan.run(send))
       return plan.changesBits ? opened.alone(run) : run(opened.send)
     }
     return {

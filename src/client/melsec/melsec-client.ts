@@ -1,19 +1,21 @@
 // The client of a MELSEC PLC: one connection in the background, typed items on top of it.
 import type { DataCode } from '../../codec/codec'
-import type { Exchange } from '../../link/link'
+import type { Exchange, RequestFrame } from '../../link/link'
+import type { ClientProtocol } from '../../melsec/client-protocol'
+import { clientProtocolOf } from '../../melsec/client-protocols'
 import type { Command, RequestOf, ResponseOf } from '../../melsec/commands/command'
 import { commands } from '../../melsec/commands/commands'
 import type { Notation } from '../../melsec/device/json'
 import { extendUnitOf, type ModulePlace } from '../../melsec/extend-unit'
-import type { Head3e } from '../../melsec/frame/slmp-frame'
 import type { Profile } from '../../melsec/profiles/profile'
-import type { ClientProtocol, ExchangeOptions } from '../../melsec/protocol'
+import type { ExchangeOptions } from '../../melsec/protocol'
 import { isPasswordRefusal, isPortLocked } from '../../melsec/remote-password'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { Connection, type ConnectionState } from '../connection/connection'
 import { Deadline } from '../connection/deadline'
 import { Listeners } from '../connection/listeners'
 import type { Statistics } from '../connection/statistics'
+import { Tracer } from '../connection/trace'
 import { FileAccess, type Files } from '../file/files'
 import { nameResults } from '../item/about'
 import { checkRequest, isItem, isList, namesOf, namesOfItems } from '../item/input-checks'
@@ -40,14 +42,13 @@ import {
   namedRequest,
   type RequestExplanation,
 } from './named-request'
-import { checkOnDemand, type Unsolicited, unsolicitedOf } from './on-demand'
+import { checkOnDemand, unsolicitedOf } from './on-demand'
 import { type MelsecClientOptions, type Settings, settle } from './options'
 import { notPermitted, optionsOfMany, overUdp } from './permission'
 import { probesOf } from './probes'
-import { protocolOf, transportOf } from './protocol-and-transport'
 import { RemotePassword } from './remote-password'
 import type { SendCommand } from './send-command'
-import { Tracer } from './trace'
+import { transportOf } from './transport-of'
 
 /** Node.js before 20.5 has no such symbol; programs for it bring one of this name. */
 const asyncDispose: typeof Symbol.asyncDispose = Symbol.asyncDispose ?? Symbol.for('Symbol.asyncDispose')
@@ -73,8 +74,8 @@ const EVENTS = {
  */
 export class MelsecClient {
   readonly #settings: Settings
-  readonly #protocol: ClientProtocol<Head3e>
-  readonly #connection: Connection<Head3e>
+  readonly #protocol: ClientProtocol
+  readonly #connection: Connection
   readonly #listeners = new Listeners<ClientEvents>(EVENTS, () => this.#traceIfWanted())
   readonly #tracer: Tracer
   readonly #registration: Registration
@@ -99,14 +100,10 @@ export class MelsecClient {
     const { password, ...options } = given
     this.options = options
     this.#settings = settings
-    this.#protocol = protocolOf(settings, options)
+    this.#protocol = clientProtocolOf({ ...settings, asciiZr: options.asciiZr })
     this.#password = new RemotePassword(this.#protocol, password)
-    this.#tracer = new Tracer({
-      ...settings,
-      asciiXy: options.asciiXy,
-      asciiZr: options.asciiZr,
-      kind: settings.transport === 'udp' ? 'datagram' : 'stream',
-    })
+    const kind = settings.transport === 'udp' ? 'datagram' : 'stream'
+    this.#tracer = new Tracer(this.#protocol.explainer(settings), kind)
     this.#connection = new Connection({
       framing: this.#protocol.framing,
       openTransport: options.openTransport ?? transportOf(settings, options),
@@ -125,7 +122,7 @@ export class MelsecClient {
           silence,
         ),
       onState: (state) => this.#changed(state),
-      onUnsolicited: (frame) => this.#cameUnasked(unsolicitedOf(frame, settings, settings.clock.time())),
+      onUnsolicited: (frame) => this.#cameUnasked(frame),
     })
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = async (command, message, call) => this.request(command, message, callOptionsOf(call))
@@ -186,13 +183,13 @@ export class MelsecClient {
    * @throws RequestError BAD_OPTION when there is no such event; of `ondemand` also when it could never come
    */
   on<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
-    if (event === 'ondemand') checkOnDemand(this.#settings, this.options)
+    if (event === 'ondemand') checkOnDemand(this.#protocol, this.#settings, this.options)
     return this.#listeners.on(event, listener)
   }
 
   /** As `on`, for the next event only. @returns what ends it before. @throws RequestError BAD_OPTION as `on` does */
   once<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
-    if (event === 'ondemand') checkOnDemand(this.#settings, this.options)
+    if (event === 'ondemand') checkOnDemand(this.#protocol, this.#settings, this.options)
     return this.#listeners.once(event, listener)
   }
 
@@ -202,11 +199,14 @@ export class MelsecClient {
   }
 
   #traceIfWanted(): void {
-    const tell: Connection<Head3e>['onTrace'] = (frame) => this.#listeners.tell('trace', this.#tracer.entry(frame))
+    const tell: Connection['onTrace'] = (frame) => this.#listeners.tell('trace', this.#tracer.entry(frame))
     this.#connection.onTrace = this.#listeners.has('trace') ? tell : undefined
   }
 
-  #cameUnasked({ frame, onDemand }: Unsolicited): void {
+  #cameUnasked(request: RequestFrame): void {
+    const read = this.#protocol.readUnasked?.(request)
+    if (read === undefined) return
+    const { frame, onDemand } = unsolicitedOf(read, request.body, this.#settings.clock.time())
     this.#listeners.tell('unsolicited', frame)
     if (onDemand !== undefined) this.#listeners.tell('ondemand', onDemand)
   }
@@ -314,7 +314,7 @@ export class MelsecClient {
   }
 
   /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
-  #call(options: CallOptions | undefined): OpenCall<Head3e> {
+  #call(options: CallOptions | undefined): OpenCall {
     const { clock, timeout } = this.#settings
     const deadline = new Deadline(clock, callOptionsOf(options), timeout)
     return this.#turns.open(deadline, async (exchange) => {
@@ -447,7 +447,7 @@ export class MelsecClient {
     return [registering, this.#protocol.exchange(command, message, { ...options, context })] as const
   }
 
-  #permit(effect: Exchange<Head3e, unknown>['effect'], title: string): void {
+  #permit(effect: Exchange<unknown>['effect'], title: string): void {
     if (effect === 'write' && !this.#settings.allowWrites) throw notPermitted(title, 'allowWrites')
     if (effect === 'control' && !this.#settings.allowControl) throw notPermitted(title, 'allowControl')
   }

@@ -1,6 +1,6 @@
 // Labels beside devices in one list: a plan and a monitor that read both and give the results in the order of the items.
+
 import { EndCodeError, type PlcError } from '../../errors'
-import type { ClientProtocol } from '../../melsec/protocol'
 import type { CallOptions } from '../connection/call'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
@@ -11,21 +11,22 @@ import type { AskedLabel, LabelFormat } from '../label/item'
 import { type LabelOutcome, readLabels } from '../label/read'
 import { LabelRequests } from '../label/request'
 import type { LabelType } from '../label/value'
+import type { PlanProtocol } from '../plan/limit'
 import type { Monitor, MonitorCall } from '../plan/monitor'
 import type { ReadPlan } from '../plan/plans'
 import type { PlanDescription } from '../plan/request'
 import { planText } from '../plan/request'
 
 /** What the client lends for labels among items. */
-export interface LabelLender<Head> {
-  readonly protocol: ClientProtocol<Head>
+export interface LabelLender {
+  readonly protocol: PlanProtocol
   readonly format: LabelFormat
   /** ms since 1970 */
   readonly time: () => number
 }
 
 /** The requests of one call for labels, over the same connection and with the same deadline as the others. */
-export function labelRequests<Head>(protocol: ClientProtocol<Head>, { send }: MonitorCall<Head>): LabelRequests {
+export function labelRequests(protocol: PlanProtocol, { send }: MonitorCall): LabelRequests {
   return new LabelRequests({ protocol, send: async (command, message) => send(protocol.exchange(command, message)) })
 }
 
@@ -56,17 +57,17 @@ function labelResult({ text: item }: LabelInItems, outcome: LabelOutcome): ReadR
 }
 
 /** Reads the labels of a list anew each time, and remembers the types for its description. */
-export class LabelReader<Head> {
+export class LabelReader {
   readonly #labels: readonly LabelInItems[]
-  readonly #lender: LabelLender<Head>
+  readonly #lender: LabelLender
   readonly #types = new Map<AskedLabel, LabelType>()
 
-  constructor(labels: readonly LabelInItems[], lender: LabelLender<Head>) {
+  constructor(labels: readonly LabelInItems[], lender: LabelLender) {
     this.#labels = labels
     this.#lender = lender
   }
 
-  read(call: MonitorCall<Head>): Promise<LabelOutcome[]> {
+  read(call: MonitorCall): Promise<LabelOutcome[]> {
     const { protocol, format, time } = this.#lender
     const asked: readonly (AskedLabel | PlcError)[] = this.#labels.map(({ label }) => label)
     const onType = (label: AskedLabel, type: LabelType) => void this.#types.set(label, type)
@@ -79,16 +80,16 @@ export class LabelReader<Head> {
 }
 
 /** A plan of devices, ready to be sent by a call. */
-interface DevicePlan<Head> {
-  run(send: MonitorCall<Head>['send'], time: () => number): Promise<ReadResult[]>
+interface DevicePlan {
+  run(send: MonitorCall['send'], time: () => number): Promise<ReadResult[]>
   describe(): PlanDescription
 }
 
-export function mixedReadPlan<Head>(
+export function mixedReadPlan(
   items: MixedItems,
-  devices: DevicePlan<Head>,
-  lender: LabelLender<Head>,
-  call: (options: CallOptions | undefined) => MonitorCall<Head>,
+  devices: DevicePlan,
+  lender: LabelLender,
+  call: (options: CallOptions | undefined) => MonitorCall,
 ): ReadPlan {
   const labels = new LabelReader(items.labels, lender)
   const describe = () => joined([devices.describe(), labels.describe()])
@@ -111,11 +112,11 @@ function joined(descriptions: readonly PlanDescription[]): PlanDescription {
 }
 
 /** Devices are registered as without labels; the monitor commands know no labels, so they are read each time. */
-export function mixedMonitor<Head>(
+export function mixedMonitor(
   items: MixedItems,
   devices: Monitor | undefined,
-  lender: LabelLender<Head>,
-  call: (options: CallOptions | undefined) => MonitorCall<Head>,
+  lender: LabelLender,
+  call: (options: CallOptions | undefined) => MonitorCall,
 ): Monitor {
   const labels = new LabelReader(items.labels, lender)
   const names = items.labels.map(({ text }) => text).join(', ')

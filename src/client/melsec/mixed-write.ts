@@ -30,20 +30,20 @@ interface LabelStep extends LabelInItems {
 }
 
 /** Entries of one kind that follow one another. */
-type Step<Head> = { readonly entries: readonly number[] } & (
+type Step = { readonly entries: readonly number[] } & (
   | { readonly labels: readonly LabelStep[] }
-  | { readonly plan: ReturnType<typeof planWrite<Head>> }
+  | { readonly plan: ReturnType<typeof planWrite> }
 )
 
-export class MixedWrite<Head> {
+export class MixedWrite {
   readonly #entries: readonly MixedEntry[]
-  readonly #lender: LabelLender<Head>
+  readonly #lender: LabelLender
   readonly #options: PlanWriteOptions
   /** Entries that cannot be written, as far as it is known without the PLC. */
   readonly #errors = new Map<number, PlcError>()
-  readonly #steps: readonly Step<Head>[]
+  readonly #steps: readonly Step[]
 
-  constructor(entries: readonly MixedEntry[], lender: LabelLender<Head>, options: PlanWriteOptions) {
+  constructor(entries: readonly MixedEntry[], lender: LabelLender, options: PlanWriteOptions) {
     this.#entries = entries
     this.#lender = lender
     this.#options = options
@@ -85,7 +85,7 @@ export class MixedWrite<Head> {
     return steps
   }
 
-  #stepsOf(labels: ReadonlyMap<number, LabelStep>): Step<Head>[] {
+  #stepsOf(labels: ReadonlyMap<number, LabelStep>): Step[] {
     const runs: number[][] = []
     for (const entry of this.#entries.keys()) {
       if (this.#errors.has(entry)) continue
@@ -93,7 +93,7 @@ export class MixedWrite<Head> {
       if (last?.[0] !== undefined && labels.has(last[0]) === labels.has(entry)) last.push(entry)
       else runs.push([entry])
     }
-    return runs.map((entries): Step<Head> => {
+    return runs.map((entries): Step => {
       const steps = entries.flatMap((entry) => labels.get(entry) ?? [])
       return steps.length > 0 ? { entries, labels: steps } : { entries, plan: this.#devicePlan(entries) }
     })
@@ -105,7 +105,7 @@ export class MixedWrite<Head> {
   }
 
   /** Writes all entries once. @returns a result for each, in their order */
-  async run(call: MonitorCall<Head>): Promise<WriteResult[]> {
+  async run(call: MonitorCall): Promise<WriteResult[]> {
     const errors = new Map(this.#errors)
     const requests = labelRequests(this.#lender.protocol, call)
     const writes = this.#stops && errors.size > 0 ? undefined : await this.#writesOf(requests, errors)
@@ -141,7 +141,7 @@ export class MixedWrite<Head> {
     })
   }
 
-  async #perform(step: Step<Head>, { call, requests, writes, errors }: Writing<Head>): Promise<void> {
+  async #perform(step: Step, { call, requests, writes, errors }: Writing): Promise<void> {
     const cause = [...errors.values()].find((error) => this.#stops || stopsOrder(error))
     if (cause !== undefined) {
       for (const entry of step.entries) if (!errors.has(entry)) errors.set(entry, notWritten(cause))
@@ -194,8 +194,8 @@ const UNKNOWN_SIZES =
   'The PLC says the types of labels before they are written: how long these requests are, and whether one holds them, is known then.'
 
 /** One run. */
-interface Writing<Head> {
-  readonly call: MonitorCall<Head>
+interface Writing {
+  readonly call: MonitorCall
   readonly requests: LabelRequests
   /** By entry. */
   readonly writes: ReadonlyMap<number, LabelWrite>

@@ -1,10 +1,8 @@
 // What a PLC sends unasked: On-demand, and whatever else comes in the form of a request.
 import { ProtocolError, RequestError } from '../../errors'
-import type { RequestFrame } from '../../link/link'
+import type { ClientProtocol, UnaskedFrame } from '../../melsec/client-protocol'
 import { wordsOfBytes } from '../../melsec/commands/on-demand'
-import { bodies } from '../../melsec/frame/body'
-import type { Head3e } from '../../melsec/frame/slmp-frame'
-import { readOnDemand } from '../../melsec/on-demand'
+import { frameFacts } from '../../melsec/frame/frames'
 import type { OnDemand, UnsolicitedFrame } from './client-events'
 import type { MelsecClientOptions, Settings } from './options'
 
@@ -15,23 +13,11 @@ export interface Unsolicited {
 }
 
 /** @param timestamp milliseconds since 1970 */
-export function unsolicitedOf(
-  { head, body }: RequestFrame<Head3e>,
-  { frame: name, code }: Pick<Settings, 'frame' | 'code'>,
-  timestamp: number,
-): Unsolicited {
-  const { route } = head
+export function unsolicitedOf({ route, data }: UnaskedFrame, body: Buffer, timestamp: number): Unsolicited {
   // A copy: the bytes of the chunk are somebody else's as soon as this returns.
   const frame: UnsolicitedFrame = { route, body: Buffer.from(body), timestamp }
-  try {
-    // A 1E frame never comes unasked.
-    const { reserved } = bodies[name === '1E' ? '3E' : name]
-    const data = Buffer.from(readOnDemand(code, body, reserved))
-    return { frame, onDemand: { route, data, words: wordsOfBytes(data), timestamp } }
-  } catch (error) {
-    if (!(error instanceof ProtocolError)) throw error
-    return { frame: { ...frame, error }, onDemand: undefined }
-  }
+  if (data instanceof ProtocolError) return { frame: { ...frame, error: data }, onDemand: undefined }
+  return { frame, onDemand: { route, data, words: wordsOfBytes(data), timestamp } }
 }
 
 /**
@@ -39,11 +25,13 @@ export function unsolicitedOf(
  * @throws RequestError UNSUPPORTED with 1E, BAD_OPTION over UDP without a port that the PLC can know
  */
 export function checkOnDemand(
+  { readUnasked }: ClientProtocol,
   { frame, transport }: Settings,
   { localPort, openTransport }: Pick<MelsecClientOptions, 'localPort' | 'openTransport'>,
 ): void {
-  if (frame === '1E') {
-    throw new RequestError('UNSUPPORTED', 'The 1E frame has no On-demand: use 3E or 4E, if the PLC has them.', 'frame')
+  if (readUnasked === undefined) {
+    const message = `The ${frameFacts[frame].title} frame has no On-demand: use 3E or 4E, if the PLC has them.`
+    throw new RequestError('UNSUPPORTED', message, 'frame')
   }
   if (transport === 'tcp' || (localPort ?? 0) > 0 || openTransport !== undefined) return
   const message =

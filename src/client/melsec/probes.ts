@@ -2,10 +2,9 @@
 import { RequestError } from '../../errors'
 import { aCompatibleCommands } from '../../melsec/a-compatible/commands'
 import { over1e } from '../../melsec/a-compatible/names'
+import type { ClientProtocol } from '../../melsec/client-protocol'
 import { commands } from '../../melsec/commands/commands'
-import type { Head3e } from '../../melsec/frame/slmp-frame'
 import { lackOf, type Profile } from '../../melsec/profiles/profile'
-import type { ClientProtocol } from '../../melsec/protocol'
 import type { Probe } from '../connection/connection-options'
 
 /**
@@ -32,11 +31,11 @@ export function checkProbe(profile: Profile, kind: ProbeKind): ProbeKind {
   throw new RequestError('BAD_OPTION', message, 'probe')
 }
 
-export function probesOf(protocol: ClientProtocol<Head3e>, kind: ProbeKind): readonly Probe<Head3e>[] {
+export function probesOf(protocol: ClientProtocol, kind: ProbeKind): readonly Probe[] {
   const exchanges = {
     readTypeName: () => protocol.exchange(commands.readTypeName, {}),
     readWords: () => protocol.exchange(commands.readWords, { head: { device: 'D', number: 0 }, points: 1 }),
-  } as const satisfies Readonly<Record<Asked, Probe<Head3e>['exchange']>>
+  } as const satisfies Readonly<Record<Asked, Probe['exchange']>>
   return ORDER[kind]
     .filter((name) => lackOf(protocol.profile, name) === undefined)
     .map((name) => ({ name: nameOf(protocol.profile, name), exchange: exchanges[name] }))

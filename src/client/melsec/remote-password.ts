@@ -1,12 +1,11 @@
 // The remote password of a client: held here and nowhere else, so that nothing that is shown or logged can hold it.
 import { RequestError } from '../../errors'
 import type { Exchange } from '../../link/link'
+import type { ClientProtocol } from '../../melsec/client-protocol'
 import { commands } from '../../melsec/commands/commands'
-import type { Head3e } from '../../melsec/frame/slmp-frame'
-import type { MelsecProtocol } from '../../melsec/protocol'
 import { passwordProblem } from '../../melsec/remote-password'
 
-type Protocol = Pick<MelsecProtocol<Head3e>, 'profile' | 'exchange'>
+type Protocol = Pick<ClientProtocol, 'profile' | 'exchange'>
 
 export class RemotePassword {
   readonly #protocol: Protocol
@@ -26,12 +25,12 @@ export class RemotePassword {
   }
 
   /** What opens a connection; undefined without a password. */
-  unlock(): Exchange<Head3e, unknown> | undefined {
+  unlock(): Exchange<unknown> | undefined {
     const password = this.#password
     return password === undefined ? undefined : this.#protocol.exchange(commands.unlock, { password })
   }
 
-  lock(): Exchange<Head3e, unknown> | undefined {
+  lock(): Exchange<unknown> | undefined {
     const password = this.#password
     return password === undefined ? undefined : this.#protocol.exchange(commands.lock, { password })
   }

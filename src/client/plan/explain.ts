@@ -1,10 +1,11 @@
 // What an item is, for people and editors: plain data.
+
 import { type AddressOptions, formatDevice, formatParsedDevice } from '../../melsec/device/address'
 import { type DeviceInfo, type DeviceUnit, deviceInfo, type Radix } from '../../melsec/device/device'
 import type { Profile, ProfileId } from '../../melsec/profiles/profile'
-import type { ClientProtocol } from '../../melsec/protocol'
 import { formatType, wordsOf } from '../../value/value'
 import { formatItem, type ParsedItem } from '../item/item'
+import type { PlanProtocol } from './limit'
 import { planRead } from './read'
 
 /** An item that is a device. */
@@ -42,11 +43,7 @@ export interface DeviceExplanation {
  * @throws RequestError when this PLC cannot be asked for it
  * @example explainItem(parseItem('D100:REAL[10]', options), protocol, options).last   // 'D119'
  */
-export function explainItem<Head>(
-  item: ParsedItem,
-  protocol: ClientProtocol<Head>,
-  options: AddressOptions,
-): DeviceExplanation {
+export function explainItem(item: ParsedItem, protocol: PlanProtocol, options: AddressOptions): DeviceExplanation {
   const info = deviceInfo(item.address.device)
   const plan = planRead([item], protocol, { gap: 0, ...options })
   const { requests, notes } = plan.describe()

@@ -1,13 +1,14 @@
 // How much one request carries, for the planner: the profile's limits and what the count fields can say.
+
+import type { ClientProtocol } from '../../melsec/client-protocol'
 import { type CommandName, commands } from '../../melsec/commands/commands'
 import type { DeviceForm } from '../../melsec/device/device-form'
 import { type Limit, limitsOf } from '../../melsec/device/limit'
 import type { LimitedUnit } from '../../melsec/device/limit-rule'
 import type { Profile } from '../../melsec/profiles/profile'
-import type { ClientProtocol } from '../../melsec/protocol'
 
-/** What of a protocol the planner looks at; the head of the frame is none of its business. */
-export type PlanProtocol = Pick<ClientProtocol<unknown>, 'profile' | 'code'>
+/** What of a protocol the planner looks at. */
+export type PlanProtocol = Pick<ClientProtocol, 'profile' | 'code' | 'exchange' | 'answerBytes'>
 
 /** Elements per field of a request, named as in `Limit.sum`, e.g. `{ words: 3, doubleWords: 2 }`. */
 export type Load = Readonly<Record<string, number>>

@@ -1,10 +1,10 @@
 // Items the PLC is told once (0801) and asked for again and again with a request that names none (0802).
+
 import { EndCodeError, PlcError, RequestError } from '../../errors'
 import type { Exchange } from '../../link/link'
 import type { RequestOf } from '../../melsec/commands/command'
 import { commands } from '../../melsec/commands/commands'
 import type { AddressOptions } from '../../melsec/device/address'
-import type { ClientProtocol } from '../../melsec/protocol'
 import type { CallOptions } from '../connection/call'
 import type { Deadline } from '../connection/deadline'
 import { about } from '../item/about'
@@ -12,23 +12,24 @@ import type { ParsedItem, RefusedItem } from '../item/item'
 import type { ReadResult } from '../item/item-value'
 import type { Stretch } from './chunk'
 import { Areas, piecesOf, readLayout } from './layout'
+import type { PlanProtocol } from './limit'
 import { type DeviceRead, planRead } from './read'
 import { type PreparedRead, prepareRead, type SendExchange } from './request'
 import { type Place, placeOf, valueAt } from './value'
 import type { OpenCall } from './write-turns'
 
 /** What a monitor needs of its client. */
-export interface MonitorOptions<Head> extends AddressOptions {
+export interface MonitorOptions extends AddressOptions {
   readonly gap: number
   /** One call: its deadline, and how it sends. @throws RequestError BAD_OPTION */
-  readonly call: (options: CallOptions | undefined) => MonitorCall<Head>
+  readonly call: (options: CallOptions | undefined) => MonitorCall
   readonly time: () => number
   readonly registration: Registration
   /** Why no registration can last on this connection, in words. */
   readonly unusable?: string | undefined
 }
 
-export type MonitorCall<Head> = Pick<OpenCall<Head>, 'deadline' | 'send'>
+export type MonitorCall = Pick<OpenCall, 'deadline' | 'send'>
 
 /**
  * What the PLC remembers of the connection: one registration at a time, forgotten with the connection. The monitors
@@ -93,19 +94,15 @@ interface Refused {
   readonly generation: number
 }
 
-export class ItemMonitor<Head> implements Monitor {
-  readonly #options: MonitorOptions<Head>
-  readonly #registered: Registered<Head> | undefined
-  readonly #plan: DeviceRead<Head>
+export class ItemMonitor implements Monitor {
+  readonly #options: MonitorOptions
+  readonly #registered: Registered | undefined
+  readonly #plan: DeviceRead
   readonly #problem: RequestError | undefined
   /** The PLC does not register these items on this connection. After another connection it is asked again. */
   #refused: Refused | undefined
 
-  constructor(
-    items: readonly (ParsedItem | RefusedItem)[],
-    protocol: ClientProtocol<Head>,
-    options: MonitorOptions<Head>,
-  ) {
+  constructor(items: readonly (ParsedItem | RefusedItem)[], protocol: PlanProtocol, options: MonitorOptions) {
     this.#options = options
     this.#plan = planRead(items, protocol, options)
     try {
@@ -141,26 +138,22 @@ export class ItemMonitor<Head> implements Monitor {
     return this.#plain(call)
   }
 
-  #plain({ send }: MonitorCall<Head>): Promise<ReadResult[]> {
+  #plain({ send }: MonitorCall): Promise<ReadResult[]> {
     return this.#plan.run(send, this.#options.time)
   }
 }
 
 /** The items as one registration. */
-class Registered<Head> {
+class Registered {
   readonly #items: readonly (ParsedItem | RefusedItem)[]
   readonly #places: readonly Place[]
-  readonly #prepared: PreparedRead<Head>
-  readonly #entry: Exchange<Head, unknown>
-  readonly #execute: Exchange<Head, unknown>
-  readonly #options: MonitorOptions<Head>
+  readonly #prepared: PreparedRead
+  readonly #entry: Exchange<unknown>
+  readonly #execute: Exchange<unknown>
+  readonly #options: MonitorOptions
 
   /** @throws RequestError when the items cannot be registered together. */
-  constructor(
-    items: readonly (ParsedItem | RefusedItem)[],
-    protocol: ClientProtocol<Head>,
-    options: MonitorOptions<Head>,
-  ) {
+  constructor(items: readonly (ParsedItem | RefusedItem)[], protocol: PlanProtocol, options: MonitorOptions) {
     this.#items = items
     this.#options = options
     const areas = new Areas(protocol, 'read')
@@ -173,7 +166,7 @@ class Registered<Head> {
   }
 
   /** The results; an end code when the PLC refuses to register the items or to read them. */
-  async read({ deadline, send }: MonitorCall<Head>): Promise<ReadResult[] | EndCodeError> {
+  async read({ deadline, send }: MonitorCall): Promise<ReadResult[] | EndCodeError> {
     try {
       const { registration } = this.#options
       const words = await registration.inTurn(deadline, 'Execute Monitor', () => this.#fetch(send))
@@ -191,10 +184,10 @@ class Registered<Head> {
     }
   }
 
-  async #fetch(send: SendExchange<Head>): Promise<ArrayLike<number>> {
+  async #fetch(send: SendExchange): Promise<ArrayLike<number>> {
     const { registration } = this.#options
     // Execute Monitor answers what Read Random with the same devices would, so its words are taken apart the same way.
-    const execute = () => this.#prepared.fetch(<T>() => send(this.#execute as Exchange<Head, T>))
+    const execute = () => this.#prepared.fetch(<T>() => send(this.#execute as Exchange<T>))
     const isNew = !registration.isOf(this)
     if (isNew) await this.#register(send)
     try {
@@ -208,7 +201,7 @@ class Registered<Head> {
     }
   }
 
-  async #register(send: SendExchange<Head>): Promise<void> {
+  async #register(send: SendExchange): Promise<void> {
     const { registration } = this.#options
     registration.lose()
     await send(this.#entry)

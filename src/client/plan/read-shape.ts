@@ -1,4 +1,5 @@
 // Which requests a read plan consists of, and what refusals taught about them.
+
 import { type EndCodeError, RequestError } from '../../errors'
 import type { CommandName } from '../../melsec/commands/commands'
 import { commands } from '../../melsec/commands/commands'
@@ -7,11 +8,11 @@ import type { Notation } from '../../melsec/device/json'
 import { limitsOf } from '../../melsec/device/limit'
 import { explainEndCode } from '../../melsec/end-codes/end-code'
 import { addressOptionsOf } from '../../melsec/profiles/profile'
-import type { ClientProtocol } from '../../melsec/protocol'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { Stretch } from './chunk'
 import { Areas, type Piece, pieceOf, piecesOf, readLayout } from './layout'
+import type { PlanProtocol } from './limit'
 import { type Draft, type PackOptions, packed } from './pack'
 import { bodyBytes, type PreparedRead, prepareRead } from './request'
 import { type Place, placeOf } from './value'
@@ -23,8 +24,8 @@ export interface ReadShapeOptions extends Notation {
 }
 
 /** One request of the plan and where its values go. */
-export interface ReadStep<Head> {
-  readonly prepared: PreparedRead<Head>
+export interface ReadStep {
+  readonly prepared: PreparedRead
   readonly pieces: readonly Piece[]
   readonly places: readonly Place[]
   /** How much was learnt: `planned` as drawn up, `merged` again after a refusal, `settled` as it was once answered. */
@@ -33,8 +34,8 @@ export interface ReadStep<Head> {
 }
 
 /** A part of a divided request and how it ended. `lost`: it says nothing about its items. */
-export interface Leaf<Head> {
-  readonly step: ReadStep<Head>
+export interface Leaf {
+  readonly step: ReadStep
   readonly outcome: 'read' | 'lost' | EndCodeError
 }
 
@@ -47,24 +48,24 @@ function isAboutItems({ endCode }: EndCodeError): boolean {
 /** After so many runs, items that were refused together are tried one by one again: the PLC may have been changed. */
 const TRY_AGAIN = 32
 
-export class ReadShape<Head> {
+export class ReadShape {
   /** Items that cannot be asked for. */
   readonly errors = new Map<number, RequestError>()
   readonly #items: readonly (ParsedItem | RefusedItem)[]
-  readonly #protocol: ClientProtocol<Head>
+  readonly #protocol: PlanProtocol
   readonly #areas: Areas
   readonly #gap: number
   readonly #address: AddressOptions
   readonly #parts = new Map<number, number>()
-  #steps: readonly ReadStep<Head>[]
+  #steps: readonly ReadStep[]
   /** Requests all of whose items were refused one by one, with this end code. */
-  readonly #hopeless = new WeakMap<ReadStep<Head>, { readonly endCode: number; runs: number }>()
+  readonly #hopeless = new WeakMap<ReadStep, { readonly endCode: number; runs: number }>()
   readonly #refusals = new Map<number, string>()
   readonly #commandNotes = new Set<string>()
 
   constructor(
     items: readonly (ParsedItem | RefusedItem)[],
-    protocol: ClientProtocol<Head>,
+    protocol: PlanProtocol,
     { gap, ...notation }: ReadShapeOptions,
   ) {
     if (!Number.isInteger(gap) || gap < 0) {
@@ -79,7 +80,7 @@ export class ReadShape<Head> {
     this.#steps = this.#built(pieces, { gap, without: new Set() }, 'planned')
   }
 
-  get steps(): readonly ReadStep<Head>[] {
+  get steps(): readonly ReadStep[] {
     return this.#steps
   }
 
@@ -105,17 +106,13 @@ export class ReadShape<Head> {
     }
   }
 
-  #built(pieces: readonly Piece[], options: PackOptions, stage: ReadStep<Head>['stage']): ReadStep<Head>[] {
+  #built(pieces: readonly Piece[], options: PackOptions, stage: ReadStep['stage']): ReadStep[] {
     const prepare = (draft: Draft) => prepareRead(this.#protocol, draft, this.#address)
     const drafts = packed(this.#areas, pieces, options, (draft) => bodyBytes(prepare(draft)))
     return drafts.map((draft) => this.#stepOf(prepare(draft), options.without, stage))
   }
 
-  #stepOf(
-    prepared: PreparedRead<Head>,
-    without: PackOptions['without'],
-    stage: ReadStep<Head>['stage'],
-  ): ReadStep<Head> {
+  #stepOf(prepared: PreparedRead, without: PackOptions['without'], stage: ReadStep['stage']): ReadStep {
     const runs = [...prepared.offsets]
     const pieces = runs.flatMap(([run]) => run.members)
     const places = runs.flatMap(([run, offset]) =>
@@ -128,7 +125,7 @@ export class ReadShape<Head> {
   }
 
   /** Whether a smaller request may be answered: the end code is about a device, or about the size of the request. */
-  mayHelp({ prepared: { command, form } }: ReadStep<Head>, refusal: EndCodeError): boolean {
+  mayHelp({ prepared: { command, form } }: ReadStep, refusal: EndCodeError): boolean {
     const { profile, code } = this.#protocol
     const limits = limitsOf(profile, command, form, code)
     return isAboutItems(refusal) || limits.some(({ endCode }) => endCode === refusal.endCode)
@@ -138,7 +135,7 @@ export class ReadShape<Head> {
    * Smaller requests for what a refused one asked for: without the command when the refusal is about that, else its
    * halves without gaps, else bits in bit units instead of their words. Empty when there is nothing smaller.
    */
-  divided(step: ReadStep<Head>, refusal: EndCodeError): readonly ReadStep<Head>[] {
+  divided(step: ReadStep, refusal: EndCodeError): readonly ReadStep[] {
     const { pieces, without, prepared } = step
     const { command } = prepared
     if ((command === 'readRandom' || command === 'readBlock') && !this.mayHelp(step, refusal)) {
@@ -170,7 +167,7 @@ export class ReadShape<Head> {
   }
 
   /** Whether all items of this request were refused one by one with this code, so that dividing it is of no use. */
-  isHopeless(step: ReadStep<Head>, { endCode }: EndCodeError): boolean {
+  isHopeless(step: ReadStep, { endCode }: EndCodeError): boolean {
     const known = this.#hopeless.get(step)
     if (known?.endCode !== endCode) return false
     known.runs++
@@ -178,14 +175,14 @@ export class ReadShape<Head> {
   }
 
   /** A request was answered: what was noted against its items no longer holds. */
-  answered(step: ReadStep<Head>): void {
+  answered(step: ReadStep): void {
     if (this.#refusals.size === 0) return
     this.#hopeless.delete(step)
     for (const { item } of step.pieces) this.#refusals.delete(item)
   }
 
   /** Puts what was learnt from a refusal in the place of the refused request. */
-  learn(step: ReadStep<Head>, refusal: EndCodeError, leaves: readonly Leaf<Head>[]): void {
+  learn(step: ReadStep, refusal: EndCodeError, leaves: readonly Leaf[]): void {
     // Another run of the same plan may have learnt it already.
     if (!this.#steps.includes(step)) return
     const read = leaves.flatMap((leaf) => (leaf.outcome === 'read' ? [leaf.step] : []))
@@ -195,7 +192,7 @@ export class ReadShape<Head> {
   }
 
   /** Requests for what could be read: merged once more, or, when that was refused too, as they were answered. */
-  #merged(step: ReadStep<Head>, refusal: EndCodeError, read: readonly ReadStep<Head>[]): readonly ReadStep<Head>[] {
+  #merged(step: ReadStep, refusal: EndCodeError, read: readonly ReadStep[]): readonly ReadStep[] {
     if (step.stage !== 'planned' || read.length < 2) return read
     const pieces = read.flatMap((leaf) => leaf.pieces)
     const without = new Set(read.flatMap((leaf) => [...leaf.without]))
@@ -204,8 +201,8 @@ export class ReadShape<Head> {
   }
 
   /** What was refused one by one is asked for together again: one request for each end code, not one for each item. */
-  #refusedSteps(leaves: readonly Leaf<Head>[]): ReadStep<Head>[] {
-    const byCode = new Map<number, ReadStep<Head>[]>()
+  #refusedSteps(leaves: readonly Leaf[]): ReadStep[] {
+    const byCode = new Map<number, ReadStep[]>()
     for (const { step, outcome } of leaves) {
       if (typeof outcome === 'string') continue
       for (const { item } of step.pieces) {
@@ -222,11 +219,7 @@ export class ReadShape<Head> {
     })
   }
 
-  #noteCommand(
-    { prepared: { command } }: ReadStep<Head>,
-    refusal: EndCodeError,
-    read: readonly ReadStep<Head>[],
-  ): void {
+  #noteCommand({ prepared: { command } }: ReadStep, refusal: EndCodeError, read: readonly ReadStep[]): void {
     if (!read.some(({ without }) => without.has(command))) return
     this.#commandNotes.add(`${titleOf(command)} is not used, because the PLC refused it. ${refusal.message}`)
   }

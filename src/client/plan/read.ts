@@ -7,11 +7,11 @@
  */
 
 import { EndCodeError, PlcError, type RequestError } from '../../errors'
-import type { ClientProtocol } from '../../melsec/protocol'
 import type { PlcValue, Words } from '../../value/value'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { ReadResult } from '../item/item-value'
+import type { PlanProtocol } from './limit'
 import { type Leaf, ReadShape, type ReadShapeOptions, type ReadStep } from './read-shape'
 import { describePrepared, type PlanDescription, planText, type SendExchange } from './request'
 import { type Place, valueAt } from './value'
@@ -25,20 +25,20 @@ const LANES = 32
  * @param options.gap words that may be read in vain between two items to read them by one request
  * @example const plan = planRead(items, protocol, { gap: 64 }); const results = await plan.run(send, clock.time)
  */
-export function planRead<Head>(
+export function planRead(
   items: readonly (ParsedItem | RefusedItem)[],
-  protocol: ClientProtocol<Head>,
+  protocol: PlanProtocol,
   options: ReadShapeOptions,
-): DeviceRead<Head> {
+): DeviceRead {
   return new DeviceRead(items, protocol, options)
 }
 
-export class DeviceRead<Head> {
-  readonly #protocol: ClientProtocol<Head>
+export class DeviceRead {
+  readonly #protocol: PlanProtocol
   readonly #texts: readonly string[]
-  readonly #shape: ReadShape<Head>
+  readonly #shape: ReadShape
 
-  constructor(items: readonly (ParsedItem | RefusedItem)[], protocol: ClientProtocol<Head>, options: ReadShapeOptions) {
+  constructor(items: readonly (ParsedItem | RefusedItem)[], protocol: PlanProtocol, options: ReadShapeOptions) {
     this.#protocol = protocol
     this.#texts = items.map(({ text }) => text)
     this.#shape = new ReadShape(items, protocol, options)
@@ -51,7 +51,7 @@ export class DeviceRead<Head> {
    * @param now milliseconds since 1970
    * @returns a result for each item, in their order; it rejects only with what is no `PlcError`, which is a bug
    */
-  async run(send: SendExchange<Head>, now: () => number): Promise<ReadResult[]> {
+  async run(send: SendExchange, now: () => number): Promise<ReadResult[]> {
     const run = new ReadRun(this.#texts, this.#shape, send, now)
     const queue = [...this.#shape.steps].reverse()
     const lane = async () => {
@@ -62,7 +62,7 @@ export class DeviceRead<Head> {
     return run.results()
   }
 
-  async #read(step: ReadStep<Head>, run: ReadRun<Head>): Promise<void> {
+  async #read(step: ReadStep, run: ReadRun): Promise<void> {
     const outcome = await run.attempt(step)
     if (outcome === 'read') this.#shape.answered(step)
     if (!(outcome instanceof EndCodeError)) return
@@ -75,23 +75,18 @@ export class DeviceRead<Head> {
   }
 
   /** Reads the parts of a refused request one after another, smaller and smaller. */
-  async #divide(
-    step: ReadStep<Head>,
-    refusal: EndCodeError,
-    run: ReadRun<Head>,
-    division: Division,
-  ): Promise<Leaf<Head>[]> {
+  async #divide(step: ReadStep, refusal: EndCodeError, run: ReadRun, division: Division): Promise<Leaf[]> {
     const parts = this.#shape.divided(step, refusal)
     if (parts.length === 0) {
       run.fail(step, refusal)
       return [{ step, outcome: refusal }]
     }
-    const tried: Leaf<Head>[] = []
+    const tried: Leaf[] = []
     for (const part of parts) tried.push({ step: part, outcome: await run.attempt(part, division) })
     // The same code for every part, and it is about none of them: the PLC is not ready, and asking more does not help.
     const same = tried.every(({ outcome }) => outcome instanceof EndCodeError && outcome.endCode === refusal.endCode)
     const hopeless = same && !this.#shape.mayHelp(step, refusal)
-    const leaves: Leaf<Head>[] = []
+    const leaves: Leaf[] = []
     for (const leaf of tried) {
       if (!(leaf.outcome instanceof EndCodeError)) leaves.push(leaf)
       else if (hopeless) leaves.push(run.give(leaf.step, leaf.outcome))
@@ -126,18 +121,18 @@ interface Division {
 }
 
 /** One run: what is known of each item so far. */
-class ReadRun<Head> {
+class ReadRun {
   readonly #texts: readonly string[]
-  readonly #shape: ReadShape<Head>
-  readonly #send: SendExchange<Head>
+  readonly #shape: ReadShape
+  readonly #send: SendExchange
   readonly #now: () => number
   readonly #values: (PlcValue | PlcValue[] | undefined)[]
   /** Of arrays larger than one request. */
-  readonly #parts = new Map<number, Parts<Head>>()
+  readonly #parts = new Map<number, Parts>()
   readonly #errors: (PlcError | undefined)[]
   readonly #timestamps: number[]
 
-  constructor(texts: readonly string[], shape: ReadShape<Head>, send: SendExchange<Head>, now: () => number) {
+  constructor(texts: readonly string[], shape: ReadShape, send: SendExchange, now: () => number) {
     this.#texts = texts
     this.#shape = shape
     this.#send = send
@@ -149,7 +144,7 @@ class ReadRun<Head> {
   }
 
   /** Reads the items of one request, or gives them the error, unless it is an end code: that may be about one of them. */
-  async attempt(step: ReadStep<Head>, division: Division = {}): Promise<Leaf<Head>['outcome']> {
+  async attempt(step: ReadStep, division: Division = {}): Promise<Leaf['outcome']> {
     if (division.lost !== undefined) return this.give(step, division.lost).outcome
     try {
       this.#take(step, await step.prepared.fetch(this.#send))
@@ -162,7 +157,7 @@ class ReadRun<Head> {
     }
   }
 
-  #take(step: ReadStep<Head>, words: Words): void {
+  #take(step: ReadStep, words: Words): void {
     const timestamp = this.#now()
     for (const place of step.places) {
       const { item } = place
@@ -176,7 +171,7 @@ class ReadRun<Head> {
     }
   }
 
-  #keep({ item, part }: Place, step: ReadStep<Head>, value: PlcValue | PlcValue[]): void {
+  #keep({ item, part }: Place, step: ReadStep, value: PlcValue | PlcValue[]): void {
     const expected = this.#shape.partsOf(item)
     if (expected === 1) {
       this.#values[item] = value
@@ -191,17 +186,17 @@ class ReadRun<Head> {
   }
 
   /** Gives the items an error that says nothing about them. */
-  give(step: ReadStep<Head>, error: PlcError): Leaf<Head> {
+  give(step: ReadStep, error: PlcError): Leaf {
     this.#set(step, () => error)
     return { step, outcome: 'lost' }
   }
 
   /** Gives each item the refusal that may be about it. */
-  fail(step: ReadStep<Head>, refusal: EndCodeError): void {
+  fail(step: ReadStep, refusal: EndCodeError): void {
     this.#set(step, (item) => about(refusal, [{ item }]))
   }
 
-  #set(step: ReadStep<Head>, errorOf: (item: string) => PlcError): void {
+  #set(step: ReadStep, errorOf: (item: string) => PlcError): void {
     const timestamp = this.#now()
     for (const { item } of step.pieces) {
       this.#errors[item] = errorOf(this.#texts[item] ?? '')
@@ -223,7 +218,7 @@ class ReadRun<Head> {
 }
 
 /** Parts of an array and the requests that read them. */
-interface Parts<Head> {
+interface Parts {
   readonly values: (PlcValue | PlcValue[])[]
-  readonly sources: Set<ReadStep<Head>>
+  readonly sources: Set<ReadStep>
 }

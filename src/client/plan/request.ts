@@ -6,14 +6,14 @@ import { type AddressOptions, formatDevice } from '../../melsec/device/address'
 import type { DeviceAddress } from '../../melsec/device/device'
 import type { DeviceForm } from '../../melsec/device/device-form'
 import { subcommandOf } from '../../melsec/device/form'
-import type { ClientProtocol } from '../../melsec/protocol'
 import type { Words } from '../../value/value'
 import { type Area, addressAt, wordsPerCell } from './area'
 import type { Stretch } from './chunk'
+import type { PlanProtocol } from './limit'
 import type { Draft } from './pack'
 
 /** Sends one request and resolves with what it answered. It may be called again before the last answer has come. */
-export type SendExchange<Head> = <T>(exchange: Exchange<Head, T>) => Promise<T>
+export type SendExchange = <T>(exchange: Exchange<T>) => Promise<T>
 
 /** One request as people see it. */
 export interface RequestDescription {
@@ -33,28 +33,24 @@ export interface RequestDescription {
 }
 
 /** One request of any plan. */
-export interface Prepared<Head> {
+export interface Prepared {
   readonly command: CommandName
   readonly form: DeviceForm
   readonly points: number
-  readonly exchange: Exchange<Head, unknown>
+  readonly exchange: Exchange<unknown>
   /** What it does, without the command. */
   readonly text: string
 }
 
 /** A request that reads words (bits are packed into words, the first in bit 0). */
-export interface PreparedRead<Head> extends Prepared<Head> {
+export interface PreparedRead extends Prepared {
   /** Bit of the words at which each run starts. */
   readonly offsets: ReadonlyMap<Stretch, number>
-  fetch(send: SendExchange<Head>): Promise<Words>
+  fetch(send: SendExchange): Promise<Words>
 }
 
 /** @throws RequestError when the request cannot be sent. */
-export function prepareRead<Head>(
-  protocol: ClientProtocol<Head>,
-  draft: Draft,
-  options: AddressOptions,
-): PreparedRead<Head> {
+export function prepareRead(protocol: PlanProtocol, draft: Draft, options: AddressOptions): PreparedRead {
   switch (draft.kind) {
     case 'direct':
       return draft.run.area.kind === 'bit'
@@ -81,7 +77,7 @@ export function pointsText(points: number, unit = 'point'): string {
   return `${points} ${unit}${points === 1 ? '' : 's'}`
 }
 
-function readWords<Head>(protocol: ClientProtocol<Head>, run: Stretch, options: AddressOptions): PreparedRead<Head> {
+function readWords(protocol: PlanProtocol, run: Stretch, options: AddressOptions): PreparedRead {
   const { area, from, to } = run
   const points = (to - from) * wordsPerCell(area)
   const exchange = protocol.exchange(commands.readWords, { head: addressAt(area, from), points })
@@ -96,7 +92,7 @@ function readWords<Head>(protocol: ClientProtocol<Head>, run: Stretch, options: 
   }
 }
 
-function readBits<Head>(protocol: ClientProtocol<Head>, run: Stretch, options: AddressOptions): PreparedRead<Head> {
+function readBits(protocol: PlanProtocol, run: Stretch, options: AddressOptions): PreparedRead {
   const { area, from, to } = run
   const points = to - from
   const exchange = protocol.exchange(commands.readBits, { head: addressAt(area, from), points })
@@ -149,7 +145,7 @@ function scatter(run: Stretch, into: Scatter): number {
   return 16 * start
 }
 
-function readRandom<Head>(protocol: ClientProtocol<Head>, runs: readonly Stretch[]): PreparedRead<Head> {
+function readRandom(protocol: PlanProtocol, runs: readonly Stretch[]): PreparedRead {
   const all: Scatter = { words: [], doubleWords: [], wordAt: [], doubleWordAt: [], length: 0 }
   const offsets = new Map(runs.map((run) => [run, scatter(run, all)]))
   const { words, doubleWords } = all
@@ -181,7 +177,7 @@ function gathered(
   return words
 }
 
-function readBlock<Head>(protocol: ClientProtocol<Head>, runs: readonly Stretch[]): PreparedRead<Head> {
+function readBlock(protocol: PlanProtocol, runs: readonly Stretch[]): PreparedRead {
   const wordRuns = runs.filter(({ area }) => area.ways.block !== 'bitBlocks')
   const bitRuns = runs.filter(({ area }) => area.ways.block === 'bitBlocks')
   const block = ({ area, from, to }: Stretch) => ({ head: addressAt(area, from), points: to - from })
@@ -213,28 +209,25 @@ function formOf(runs: readonly Stretch[]): DeviceForm {
   return runs[0]?.area.ways.form ?? 'short'
 }
 
-const NOTHING = Buffer.alloc(0)
-
 /** Bytes of the bodies of request and answer. */
-export function bodyBytes<Head>({ exchange }: Prepared<Head>): number {
-  return exchange.body.length + (exchange.responseLength(exchange.head, NOTHING) ?? 0)
+export function bodyBytes({ exchange }: Prepared): number {
+  return exchange.body.length + (exchange.answerBody() ?? 0)
 }
 
-export function describePrepared<Head>(
-  protocol: ClientProtocol<Head>,
-  prepared: Prepared<Head>,
+export function describePrepared(
+  protocol: PlanProtocol,
+  prepared: Prepared,
   items: readonly string[],
 ): RequestDescription {
   const { command, form, points, exchange, text } = prepared
-  const { framing, profile } = protocol
-  const answer = Buffer.alloc(exchange.responseLength(exchange.head, NOTHING) ?? 0)
+  const { profile } = protocol
   return {
     command,
     form,
     subcommand: subcommandOf(commands[command], form, profile),
     points,
-    requestBytes: framing.request.write(exchange.head, 0, exchange.body).length,
-    responseBytes: framing.response.write(exchange.head, 0, 0, answer).length,
+    requestBytes: exchange.write(0).length,
+    responseBytes: protocol.answerBytes(exchange.answerBody() ?? 0),
     items,
     text: `${exchange.title}: ${text}`,
   }

@@ -1,34 +1,35 @@
 // From a batch to what is sent: one Write or Write Random, or a Read and a Write for bits of words.
+
 import { ClosedError, ConnectionError, PlcError, ProtocolError, TimeoutError } from '../../errors'
 import type { Exchange } from '../../link/link'
 import { commands } from '../../melsec/commands/commands'
 import type { AddressOptions } from '../../melsec/device/address'
-import type { ClientProtocol } from '../../melsec/protocol'
 import { type Area, addressAt } from './area'
 import type { Stretch } from './chunk'
 import type { Areas } from './layout'
+import type { PlanProtocol } from './limit'
 import { type Prepared, pointsText, prepareRead, rangeText, type SendExchange } from './request'
 import type { Batch } from './write-batch'
 import type { WriteUnit } from './write-unit'
 
 /** One write, ready to be sent. */
-export interface WriteStep<Head> {
+export interface WriteStep {
   readonly units: readonly WriteUnit[]
   /** What it sends: the write, and before it the read of words that are written back. */
-  readonly prepared: readonly Prepared<Head>[]
+  readonly prepared: readonly Prepared[]
   /** Rejects with an error whose outcome is that of the write. */
-  perform(send: SendExchange<Head>): Promise<void>
+  perform(send: SendExchange): Promise<void>
 }
 
-export interface WriteContext<Head> {
-  readonly protocol: ClientProtocol<Head>
+export interface WriteContext {
+  readonly protocol: PlanProtocol
   /** Areas as they are read, for words that are read before they are written. */
   readonly readAreas: Areas
   readonly options: AddressOptions
 }
 
 /** @throws RequestError when the request cannot be sent. */
-export function prepareWrite<Head>(context: WriteContext<Head>, batch: Batch): WriteStep<Head> {
+export function prepareWrite(context: WriteContext, batch: Batch): WriteStep {
   if (batch.kind === 'masked') return readModifyWrite(context, batch.units)
   const prepared = batch.kind === 'direct' ? direct(context, batch.units) : random(context, batch.units)
   const { exchange } = prepared
@@ -41,7 +42,7 @@ export function prepareWrite<Head>(context: WriteContext<Head>, batch: Batch): W
   }
 }
 
-function direct<Head>({ protocol, options }: WriteContext<Head>, units: readonly WriteUnit[]): Prepared<Head> {
+function direct({ protocol, options }: WriteContext, units: readonly WriteUnit[]): Prepared {
   const ordered = [...units].sort((a, b) => a.from - b.from)
   const area = areaOf(units)
   const from = ordered[0]?.from ?? 0
@@ -68,7 +69,7 @@ function direct<Head>({ protocol, options }: WriteContext<Head>, units: readonly
       }
 }
 
-function random<Head>({ protocol }: WriteContext<Head>, units: readonly WriteUnit[]): Prepared<Head> {
+function random({ protocol }: WriteContext, units: readonly WriteUnit[]): Prepared {
   const { form } = areaOf(units).ways
   const bits = units.flatMap(({ area, from, content }) =>
     content.kind === 'bits' ? content.bits.map((value, i) => ({ device: addressAt(area, from + i), value })) : [],
@@ -143,7 +144,7 @@ function maskedWords(units: readonly WriteUnit[]): MaskedWord[] {
   return [...found.values()]
 }
 
-function readModifyWrite<Head>(context: WriteContext<Head>, units: readonly WriteUnit[]): WriteStep<Head> {
+function readModifyWrite(context: WriteContext, units: readonly WriteUnit[]): WriteStep {
   const { protocol, readAreas, options } = context
   const targets = maskedWords(units)
   const runs = targets.map(({ area, cell }): Stretch => {
@@ -174,12 +175,12 @@ function readModifyWrite<Head>(context: WriteContext<Head>, units: readonly Writ
   }
 }
 
-function describedWrite<Head>(
+function describedWrite(
   units: readonly WriteUnit[],
   isRandom: boolean,
-  exchange: Exchange<Head, unknown>,
+  exchange: Exchange<unknown>,
   points: number,
-): Prepared<Head> {
+): Prepared {
   return {
     command: isRandom ? 'writeRandomWords' : 'writeWords',
     form: areaOf(units).ways.form,

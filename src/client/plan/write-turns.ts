@@ -5,11 +5,11 @@ import type { Deadline } from '../connection/deadline'
 import type { SendExchange } from './request'
 
 /** One call: all its requests share one deadline. */
-export interface OpenCall<Head> {
+export interface OpenCall {
   readonly deadline: Deadline
-  readonly send: SendExchange<Head>
+  readonly send: SendExchange
   /** Nobody else of this client writes meanwhile. */
-  alone<T>(use: (send: SendExchange<Head>) => Promise<T>): Promise<T>
+  alone<T>(use: (send: SendExchange) => Promise<T>): Promise<T>
 }
 
 export class WriteTurns {
@@ -18,8 +18,8 @@ export class WriteTurns {
   readonly #shared = new Set<Promise<unknown>>()
 
   /** A call whose writes take their turns. */
-  open<Head>(deadline: Deadline, request: SendExchange<Head>): OpenCall<Head> {
-    const send = <T>(exchange: Exchange<Head, T>): Promise<T> =>
+  open(deadline: Deadline, request: SendExchange): OpenCall {
+    const send = <T>(exchange: Exchange<T>): Promise<T> =>
       exchange.effect === 'write' ? this.shared(deadline, exchange.title, () => request(exchange)) : request(exchange)
     return { deadline, send, alone: (use) => this.exclusive(deadline, 'Writing', () => use(request)) }
   }

@@ -2,16 +2,17 @@
  * A prepared write: everything is checked and encoded before the first request, the requests are sent one after another
  * in the order of the entries, and nothing that may have been carried out is ever sent again.
  */
+
 import { ClosedError, EndCodeError, PlcError, RequestError, type WriteResult } from '../../errors'
 import type { Notation } from '../../melsec/device/json'
 import { explainEndCode } from '../../melsec/end-codes/end-code'
 import { addressOptionsOf, type Profile } from '../../melsec/profiles/profile'
-import type { ClientProtocol } from '../../melsec/protocol'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { PlainValue } from '../item/item-value'
 import { stopsOrder } from '../item/value-or-error'
 import { Areas } from './layout'
+import type { PlanProtocol } from './limit'
 import { describePrepared, type PlanDescription, planText, type SendExchange } from './request'
 import { alone, batchesOf } from './write-batch'
 import { prepareWrite, type WriteContext, type WriteStep } from './write-request'
@@ -42,24 +43,24 @@ export interface PlanWriteOptions extends WriteOptions, Notation {}
  *
  * @example const plan = planWrite([{ item: parseItem('D100:REAL', options), value: 1.5 }], protocol)
  */
-export function planWrite<Head>(
+export function planWrite(
   entries: readonly PlannedEntry[],
-  protocol: ClientProtocol<Head>,
+  protocol: PlanProtocol,
   options: PlanWriteOptions = {},
-): DeviceWrite<Head> {
+): DeviceWrite {
   return new DeviceWrite(entries, protocol, options)
 }
 
-export class DeviceWrite<Head> {
-  readonly #context: WriteContext<Head>
+export class DeviceWrite {
+  readonly #context: WriteContext
   readonly #areas: Areas
   readonly #entries: readonly PlannedEntry[]
   readonly #options: PlanWriteOptions
   readonly #errors = new Map<number, PlcError>()
   readonly #units: readonly WriteUnit[]
-  readonly #steps: readonly WriteStep<Head>[]
+  readonly #steps: readonly WriteStep[]
 
-  constructor(entries: readonly PlannedEntry[], protocol: ClientProtocol<Head>, options: PlanWriteOptions) {
+  constructor(entries: readonly PlannedEntry[], protocol: PlanProtocol, options: PlanWriteOptions) {
     this.#areas = new Areas(protocol, 'write')
     this.#context = {
       protocol,
@@ -123,8 +124,8 @@ export class DeviceWrite<Head> {
    * @param send what it rejects with is a `PlcError`
    * @returns a result for each entry, in their order; it rejects only with what is no `PlcError`, which is a bug
    */
-  async run(send: SendExchange<Head>): Promise<WriteResult[]> {
-    const run = new WriteRun<Head>(
+  async run(send: SendExchange): Promise<WriteResult[]> {
+    const run = new WriteRun(
       this.#entries,
       this.#errors,
       this.#options.allOrNothing === true,
@@ -139,12 +140,12 @@ export class DeviceWrite<Head> {
     return run.results()
   }
 
-  async #single(step: WriteStep<Head>, run: WriteRun<Head>, send: SendExchange<Head>): Promise<void> {
+  async #single(step: WriteStep, run: WriteRun, send: SendExchange): Promise<void> {
     const refusal = await run.attempt(step, send)
     if (refusal !== undefined) run.fail(step, refusal)
   }
 
-  #apart({ units }: WriteStep<Head>): WriteStep<Head>[] {
+  #apart({ units }: WriteStep): WriteStep[] {
     return units.map((unit) => prepareWrite(this.#context, alone(this.#areas.protocol, unit)))
   }
 
@@ -190,7 +191,7 @@ export class DeviceWrite<Head> {
 }
 
 /** One run: what became of each entry so far. */
-class WriteRun<Head> {
+class WriteRun {
   readonly #entries: readonly PlannedEntry[]
   readonly #errors: Map<number, PlcError>
   readonly #allOrNothing: boolean
@@ -213,7 +214,7 @@ class WriteRun<Head> {
   }
 
   /** Sends one request. @returns the end code, when it was refused; other failures are given to the entries. */
-  async attempt(step: WriteStep<Head>, send: SendExchange<Head>): Promise<EndCodeError | undefined> {
+  async attempt(step: WriteStep, send: SendExchange): Promise<EndCodeError | undefined> {
     if (this.#stopped !== undefined) {
       this.#notSent(step, this.#stopped)
       return undefined
@@ -234,11 +235,11 @@ class WriteRun<Head> {
   }
 
   /** Whether a refused request is written again, one entry at a time: it was not carried out, and one is to blame. */
-  goesOnApart({ units }: WriteStep<Head>, { endCode }: EndCodeError): boolean {
+  goesOnApart({ units }: WriteStep, { endCode }: EndCodeError): boolean {
     return units.length > 1 && !this.#allOrNothing && explainEndCode(endCode)?.aboutDevice === true
   }
 
-  fail(step: WriteStep<Head>, error: PlcError): void {
+  fail(step: WriteStep, error: PlcError): void {
     if (this.#allOrNothing) this.#stopped ??= error
     const entries = [...new Set(step.units.map(({ entry }) => entry))]
     const likely = [...entries].sort((a, b) => Number(this.#isBeyond(b)) - Number(this.#isBeyond(a)))
@@ -259,7 +260,7 @@ class WriteRun<Head> {
     return points !== undefined && item.address.number >= points
   }
 
-  #notSent(step: WriteStep<Head>, cause: PlcError): void {
+  #notSent(step: WriteStep, cause: PlcError): void {
     for (const { entry } of step.units) {
       const message = `${this.#text(entry)} was not written, because an earlier request of this write failed: ${cause.message}`
       this.#set(entry, new ClosedError('ABORTED', message, 'notSent', cause))

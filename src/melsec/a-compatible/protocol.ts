@@ -142,7 +142,7 @@ function sizeOf(value: unknown): number | undefined {
   return Array.isArray(value) || (ArrayBuffer.isView(value) && 'length' in value) ? Number(value.length) : undefined
 }
 
-function refusal(code: DataCode, command: NamedCommand, frame: ResponseFrame<Head1e>): EndCodeError {
+function refusal(code: DataCode, command: NamedCommand, frame: ResponseFrame): EndCodeError {
   const abnormal = frame.body.length === 0 ? undefined : readerOf(code, frame.body).uint(1)
   const text = explainEndCode(frame.endCode)
   const reason = abnormal === undefined ? undefined : explainEndCode(abnormal)

@@ -4,16 +4,17 @@
  */
 import { decode, encode, type Message, readerOf, writerOf } from '../../codec/codec'
 import { RequestError } from '../../errors'
-import type { Exchange, Framing, HeadProtocol, NamedCommand } from '../../link/link'
+import type { Exchange, FrameExplainer, Framing, HeadProtocol, NamedCommand } from '../../link/link'
+import type { ClientProtocol, ProtocolOptions, ShownAs } from '../client-protocol'
 import type { Command, RequestOf, ResponseOf } from '../commands/command'
 import type { CommandName } from '../commands/commands'
 import { type DeviceAddress, deviceInfo } from '../device/device'
+import { explainer1e } from '../explain/explainer-1e'
 import type { Head1e } from '../frame/frame-1e'
 import { ownStation, type Route } from '../frame/route'
-import type { Head3e } from '../frame/slmp-frame'
 import { profileOver1e } from '../profiles/over-1e'
 import { lackOf, type Profile } from '../profiles/profile'
-import type { ClientProtocol, ExchangeOptions } from '../protocol'
+import type { ExchangeOptions } from '../protocol'
 import { aCompatibleCommands } from './commands'
 import { isOver1e, over1e } from './names'
 import { type ACompatibleOptions, aCompatibleProtocol } from './protocol'
@@ -32,14 +33,11 @@ interface Said {
 const asItIs = (message: Message): Message => message
 const nothing = (): Message => ({})
 
-export interface SlmpOver1eOptions extends Pick<ACompatibleOptions, 'code' | 'asciiXy' | 'timer'> {
-  readonly profile: Profile
-  /** 1E reaches the connected station only; another one is refused. */
-  readonly route: Route
-}
-
-/** @throws RequestError BAD_OPTION when the PLC does not take 1E, or not for this route. */
-export function protocolOver1e(options: SlmpOver1eOptions): ClientProtocol<Head3e> {
+/**
+ * 1E reaches the connected station only.
+ * @throws RequestError BAD_OPTION when the PLC does not take 1E, or for another route
+ */
+export function protocolOver1e(options: ProtocolOptions): ClientProtocol {
   return new SlmpOver1e(options)
 }
 
@@ -59,20 +57,30 @@ function refuseOtherStations(route: Route): void {
   }
 }
 
-class SlmpOver1e implements ClientProtocol<Head3e> {
-  readonly framing: Framing<Head3e>
+class SlmpOver1e implements ClientProtocol {
+  readonly framing: Framing<Head1e>
   readonly profile: Profile
   readonly code: ACompatibleOptions['code']
   readonly #protocol: HeadProtocol<Head1e>
   readonly #family: ACompatibleFamily
+  readonly #asciiXy: ProtocolOptions['asciiXy']
 
-  constructor({ profile, route, ...options }: SlmpOver1eOptions) {
+  constructor({ profile, route, code, asciiXy, timer }: ProtocolOptions) {
     refuseOtherStations(route)
     this.#family = familyOf(profile)
-    this.#protocol = aCompatibleProtocol({ ...options, family: this.#family })
-    this.framing = framingOf(this.#protocol.framing)
+    this.#protocol = aCompatibleProtocol({ code, asciiXy, timer, family: this.#family })
+    this.framing = this.#protocol.framing
+    this.#asciiXy = asciiXy
     this.profile = profileOver1e(profile, this.#family)
-    this.code = options.code
+    this.code = code
+  }
+
+  answerBytes(body: number): number {
+    return this.framing.response.write({ command: 0, pc: 0, timer: 0 }, 0, 0, Buffer.alloc(body)).length
+  }
+
+  explainer(shownAs: ShownAs): FrameExplainer {
+    return explainer1e({ code: this.code, profile: this.profile, asciiXy: this.#asciiXy, ...shownAs })
   }
 
   /** @throws RequestError when 1E cannot say it. */
@@ -80,20 +88,16 @@ class SlmpOver1e implements ClientProtocol<Head3e> {
     command: C,
     message: RequestOf<C>,
     options: ExchangeOptions = {},
-  ): Exchange<Head3e, ResponseOf<C>> {
+  ): Exchange<ResponseOf<C>> {
     const given: Message = message
     this.#check(command, options)
     const said = this.#said(command.name, given)
     const asked = this.#protocol.exchange(said.command, said.message)
     return {
-      title: asked.title,
+      ...asked,
       effect: command.effect,
       message: given,
-      head: outer(asked.head),
-      body: asked.body,
-      answered: asked.answered,
-      responseLength: (head, soFar) => asked.responseLength(inner(head), soFar),
-      decode: (frame) => answered(command, given, said.answer(asked.decode({ ...frame, head: inner(frame.head) }))),
+      decode: (frame) => answered(command, given, said.answer(asked.decode(frame))),
     }
   }
 
@@ -214,43 +218,4 @@ function halves({ device, value }: Message): Message[] {
 
 function isAddress(value: unknown): value is DeviceAddress {
   return typeof value === 'object' && value !== null && 'device' in value
-}
-
-/** Head of a client of the SLMP set, with what 1E needs beside it. */
-interface OuterHead extends Head3e {
-  readonly command: number
-  readonly pc: number
-}
-
-function outer({ command, pc, timer }: Head1e): OuterHead {
-  return { route: ownStation, timer, command, pc }
-}
-
-function inner(head: Head3e): Head1e {
-  if (!('command' in head && 'pc' in head)) throw new TypeError('this is no head of a 1E frame')
-  const { command, pc, timer } = head
-  if (typeof command !== 'number' || typeof pc !== 'number') throw new TypeError('this is no head of a 1E frame')
-  return { command, pc, timer }
-}
-
-function framingOf({ name, correlation, request, response, mismatch }: Framing<Head1e>): Framing<Head3e> {
-  return {
-    name,
-    correlation,
-    request: {
-      write: (head, serial, body) => request.write(inner(head), serial, body),
-      scan(bytes, bodyLength) {
-        const scanned = request.scan(bytes, (head, soFar) => bodyLength(outer(head), soFar))
-        return scanned && { ...scanned, frame: { ...scanned.frame, head: outer(scanned.frame.head) } }
-      },
-    },
-    response: {
-      write: (head, serial, endCode, body) => response.write(inner(head), serial, endCode, body),
-      scan(bytes, bodyLength) {
-        const scanned = response.scan(bytes, (head, soFar) => bodyLength(outer(head), soFar))
-        return scanned && { ...scanned, frame: { ...scanned.frame, head: outer(scanned.frame.head) } }
-      },
-    },
-    mismatch: (asked, got) => mismatch(inner(asked), inner(got)),
-  }
 }

@@ -1,5 +1,4 @@
 // A captured frame in words, field by field: for the command line, for traces, for people with a protocol analyser.
-import { MASK } from '../../codec/annotate'
 import { type DataCode, field, isSameDigit, measure, type Shape } from '../../codec/codec'
 import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../../codec/explanation'
 import type { Command } from '../commands/command'
@@ -7,7 +6,7 @@ import { knownCommands } from '../commands/known'
 import { bodies } from '../frame/body'
 import { frameFacts, type SlmpFrameName } from '../frame/frames'
 import { isConnectedStation, ownStation } from '../frame/route'
-import { frame3e } from '../frame/slmp-frame'
+import { slmpFraming } from '../frame/slmp-frame'
 import { addressOptionsOf, asciiXyOf } from '../profiles/profile'
 import { resolveProfile } from '../profiles/profiles'
 import {
@@ -61,8 +60,8 @@ interface Subheader {
 
 const SUBHEADERS: readonly Subheader[] = (['3E', '4E', 'ext'] as const).flatMap((frame) =>
   frameFacts[frame].codes.flatMap((code) => {
-    const { request, response } = frame3e(frame, code)
-    const head = { route: ownStation, timer: 0 }
+    const { request, response } = slmpFraming(frame, code)
+    const head = { ...ownStation, timer: 0 }
     const size = code === 'ascii' ? 4 : 2
     const none = Buffer.alloc(0)
     return [
@@ -277,18 +276,9 @@ function scanned3e(
   bytes: Buffer,
 ): { body: Buffer; serial: number | undefined } | undefined {
   try {
-    return frame3e(frame, code).request.scan(bytes, () => undefined)?.frame
+    return slmpFraming(frame, code).request.scan(bytes, () => undefined)?.frame
   } catch {
     // Not a frame: the caller says so.
     return undefined
   }
-}
-
-/** The bytes of a frame without its secrets: asterisks in their place, everything else as it is. */
-export function maskSecrets(bytes: Buffer, explanation: FrameExplanation | undefined): Buffer {
-  const secrets = explanation?.rows.filter((row) => row.secret === true) ?? []
-  if (secrets.length === 0) return bytes
-  const masked = Buffer.from(bytes)
-  for (const { offset, length } of secrets) masked.fill(MASK[0] ?? '*', offset, offset + length)
-  return masked
 }

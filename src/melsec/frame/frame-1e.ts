@@ -4,7 +4,7 @@ import { type DataCode, failAt, putUint, uintAt } from '../../codec/codec'
 import type { BodyLength, Framing, RequestFrame, ResponseFrame, Scanned } from '../../link/link'
 import { aCompatibleCommands } from '../a-compatible/commands'
 
-export interface Head1e {
+export type Head1e = {
   /** The command is the subheader. */
   readonly command: number
   /** PC number, FFH = the connected station. An answer has none. */

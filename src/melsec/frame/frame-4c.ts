@@ -3,20 +3,16 @@
 // Every 10H between DLE STX and DLE ETX is doubled; byte count and sum are taken before that. The sum is two ASCII
 // characters. There is no serial number: answers come in order.
 import { failAt, putUint, sumOf, uintAt } from '../../codec/codec'
-import type { Framing, RequestFrame, ResponseFrame, Scanned } from '../../link/link'
+import type { Framing, Head, RequestFrame, ResponseFrame, Scanned } from '../../link/link'
 
 /** Access route of the 4C frame. On an FX5 only the station number varies. */
-export interface Route4c {
+export type Head4c = {
   readonly station: number
   readonly network: number
   readonly pc: number
   readonly moduleIo: number
   readonly multidrop: number
   readonly selfStation: number
-}
-
-export interface Head4c {
-  readonly route: Route4c
 }
 
 export interface Format5Options {
@@ -39,14 +35,14 @@ export function frame4cFormat5(options: Format5Options = {}): Framing<Head4c> {
     name: '4C format 5',
     correlation: 'order',
     request: {
-      write: (head, _serial, body) => write(head.route, body, sumCheck),
+      write: (head, _serial, body) => write(head, body, sumCheck),
       scan: (bytes) => scanRequest(bytes, sumCheck),
     },
     response: {
-      write: (head, _serial, endCode, body) => write(head.route, responseData(endCode, body), sumCheck),
+      write: (head, _serial, endCode, body) => write(head, responseData(endCode, body), sumCheck),
       scan: (bytes) => scanResponse(bytes, sumCheck),
     },
-    mismatch: (asked, answered) => mismatch(asked.route, answered.route),
+    mismatch,
   }
 }
 
@@ -57,16 +53,16 @@ function responseData(endCode: number, body: Uint8Array): Buffer {
   return data
 }
 
-function write(route: Route4c, data: Uint8Array, sumCheck: boolean): Buffer {
+function write(head: Head4c, data: Uint8Array, sumCheck: boolean): Buffer {
   const plain = Buffer.allocUnsafe(2 + ROUTE_END + data.length)
   let at = putUint(plain, 0, ROUTE_END + data.length, 2, false)
   at = putUint(plain, at, FRAME_ID, 1, false)
-  at = putUint(plain, at, route.station, 1, false)
-  at = putUint(plain, at, route.network, 1, false)
-  at = putUint(plain, at, route.pc, 1, false)
-  at = putUint(plain, at, route.moduleIo, 2, false)
-  at = putUint(plain, at, route.multidrop, 1, false)
-  at = putUint(plain, at, route.selfStation, 1, false)
+  at = putUint(plain, at, head.station, 1, false)
+  at = putUint(plain, at, head.network, 1, false)
+  at = putUint(plain, at, head.pc, 1, false)
+  at = putUint(plain, at, head.moduleIo, 2, false)
+  at = putUint(plain, at, head.multidrop, 1, false)
+  at = putUint(plain, at, head.selfStation, 1, false)
   plain.set(data, at)
   const sum = sumCheck ? sumCharacters(plain) : Buffer.alloc(0)
   return Buffer.concat([Buffer.of(DLE, STX), stuff(plain), Buffer.of(DLE, ETX), sum])
@@ -89,7 +85,7 @@ function stuff(plain: Buffer): Buffer {
 
 interface Envelope {
   readonly used: number
-  readonly route: Route4c
+  readonly head: Head4c
   readonly data: Buffer
 }
 
@@ -124,13 +120,13 @@ function unstuff(bytes: Buffer): { plain: Buffer; end: number } | undefined {
   return undefined
 }
 
-function parse(plain: Buffer): { route: Route4c; data: Buffer } {
+function parse(plain: Buffer): { head: Head4c; data: Buffer } {
   if (plain.length < 2 + ROUTE_END) failAt('TRUNCATED', plain.length, plain, 'the access route is not complete')
   const count = uintAt(plain, 0, 2, false)
   if (count !== plain.length - 2)
     failAt('BAD_FRAME', 0, plain, `${count} data bytes announced, ${plain.length - 2} found`)
   if (plain[2] !== FRAME_ID) failAt('BAD_FRAME', 2, plain, 'the frame ID of 4C is F8')
-  const route = {
+  const head = {
     station: uintAt(plain, 3, 1, false),
     network: uintAt(plain, 4, 1, false),
     pc: uintAt(plain, 5, 1, false),
@@ -138,22 +134,22 @@ function parse(plain: Buffer): { route: Route4c; data: Buffer } {
     multidrop: uintAt(plain, 8, 1, false),
     selfStation: uintAt(plain, 9, 1, false),
   }
-  return { route, data: plain.subarray(2 + ROUTE_END) }
+  return { head, data: plain.subarray(2 + ROUTE_END) }
 }
 
 function scanRequest(bytes: Buffer, sumCheck: boolean): Scanned<RequestFrame<Head4c>> | undefined {
   const found = scan(bytes, sumCheck)
-  return found && { used: found.used, frame: { head: { route: found.route }, serial: undefined, body: found.data } }
+  return found && { used: found.used, frame: { head: found.head, serial: undefined, body: found.data } }
 }
 
 function scanResponse(bytes: Buffer, sumCheck: boolean): Scanned<ResponseFrame<Head4c>> | undefined {
   const found = scan(bytes, sumCheck)
   if (found === undefined) return undefined
-  const { used, route, data } = found
+  const { used, head, data } = found
   if (data.length < 4) failAt('TRUNCATED', data.length, data, 'response ID and completion code are missing')
   if (uintAt(data, 0, 2, false) !== RESPONSE_ID) failAt('BAD_FRAME', 0, data, 'the response ID is FFFF')
   const endCode = uintAt(data, 2, 2, false)
-  return { used, frame: { head: { route }, serial: undefined, endCode, body: data.subarray(4) } }
+  return { used, frame: { head, serial: undefined, endCode, body: data.subarray(4) } }
 }
 
 const ROUTE_FIELDS = [
@@ -163,9 +159,9 @@ const ROUTE_FIELDS = [
   'moduleIo',
   'multidrop',
   'selfStation',
-] as const satisfies readonly (keyof Route4c)[]
+] as const satisfies readonly (keyof Head4c)[]
 
-function mismatch(asked: Route4c, answered: Route4c): string | undefined {
+function mismatch(asked: Head4c, answered: Head): string | undefined {
   for (const field of ROUTE_FIELDS) {
     if (asked[field] !== answered[field]) return `${field} is ${answered[field]}, asked ${asked[field]}`
   }

@@ -6,7 +6,7 @@ import { RequestError } from '../../errors'
 import { type FrameName, frameFacts } from './frames'
 
 /** Request destination network, station, module I/O, multidrop station and extension station numbers. */
-export interface Route {
+export type Route = {
   /** 0 = the network of the connected station, 1 to 239 another one. */
   readonly network: number
   /**

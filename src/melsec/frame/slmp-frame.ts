@@ -2,21 +2,20 @@
 // subheader, the station extension frame also a fixed 00H and the extension station number behind the multidrop number.
 import { type DataCode, failAt, isSameDigit, putUint, uintAt } from '../../codec/codec'
 import { RequestError } from '../../errors'
-import type { Framing, RequestFrame, ResponseFrame, Scanned } from '../../link/link'
+import type { Framing, Head, RequestFrame, ResponseFrame, Scanned } from '../../link/link'
 
 import { type BodyLayout, bodies } from './body'
 import { frameFacts, type SlmpFrameName } from './frames'
 import type { Route } from './route'
 
-/** What stands in front of the body. */
-export interface Head3e {
-  readonly route: Route
+/** What stands in front of the body: the route, and what a request says beside. */
+export type SlmpHead = Route & {
   /** Monitoring timer in units of 250 ms, 0 = wait for ever; an answer has none. */
   readonly timer: number
 }
 
 /** Framing of the SLMP set: also says what stands around the data of a command. */
-export interface SlmpFraming extends Framing<Head3e> {
+export interface SlmpFraming extends Framing<SlmpHead> {
   readonly body: BodyLayout
 }
 
@@ -44,9 +43,9 @@ const EXTENSION = 3
  * Framing of 3E (no serial number, answers by order), 4E (serial number) or the station extension frame (serial number,
  * extension station number; binary code only).
  * @throws RequestError BAD_OPTION for the station extension frame in ASCII code
- * @example const framing = frame3e('4E', 'binary')
+ * @example const framing = slmpFraming('4E', 'binary')
  */
-export function frame3e(frame: SlmpFrameName, code: DataCode): SlmpFraming {
+export function slmpFraming(frame: SlmpFrameName, code: DataCode): SlmpFraming {
   if (!frameFacts[frame].codes.includes(code)) {
     throw new RequestError('BAD_OPTION', `The ${frameFacts[frame].title} frame has no ${code} code.`, 'code')
   }
@@ -57,15 +56,15 @@ export function frame3e(frame: SlmpFrameName, code: DataCode): SlmpFraming {
     body: bodies[frame],
     correlation: layout.serial ? 'serial' : 'order',
     request: {
-      write: (head, serial, body) => write(layout, request, serial, head.route, head.timer, body),
+      write: (head, serial, body) => write(layout, request, serial, head, head.timer, body),
       scan: (bytes) => scanRequest(layout, request, bytes),
     },
     response: {
-      write: (head, serial, endCode, body) => write(layout, response, serial, head.route, endCode, body),
+      write: (head, serial, endCode, body) => write(layout, response, serial, head, endCode, body),
       scan: (bytes) => scanResponse(layout, response, bytes),
       isUnsolicited: (bytes) => startsWith(bytes, layout.ascii, request),
     },
-    mismatch: (asked, answered) => mismatch(asked.route, answered.route),
+    mismatch,
   }
 }
 
@@ -128,18 +127,18 @@ interface Envelope {
   readonly body: Buffer
 }
 
-function scanRequest(layout: Layout, subheader: number, bytes: Buffer): Scanned<RequestFrame<Head3e>> | undefined {
+function scanRequest(layout: Layout, subheader: number, bytes: Buffer): Scanned<RequestFrame<SlmpHead>> | undefined {
   const found = scan(layout, subheader, bytes)
   if (found === undefined) return undefined
   const { used, serial, route, timerOrEndCode, body } = found
-  return { used, frame: { head: { route, timer: timerOrEndCode }, serial, body } }
+  return { used, frame: { head: { ...route, timer: timerOrEndCode }, serial, body } }
 }
 
-function scanResponse(layout: Layout, subheader: number, bytes: Buffer): Scanned<ResponseFrame<Head3e>> | undefined {
+function scanResponse(layout: Layout, subheader: number, bytes: Buffer): Scanned<ResponseFrame<SlmpHead>> | undefined {
   const found = scan(layout, subheader, bytes)
   if (found === undefined) return undefined
   const { used, serial, route, timerOrEndCode, body } = found
-  return { used, frame: { head: { route, timer: 0 }, serial, endCode: timerOrEndCode, body } }
+  return { used, frame: { head: { ...route, timer: 0 }, serial, endCode: timerOrEndCode, body } }
 }
 
 function scan(layout: Layout, subheader: number, bytes: Buffer): Envelope | undefined {
@@ -215,7 +214,7 @@ for (const frame of ['3E', '4E', 'ext'] as const) {
 const ROUTE_FIELDS = ['network', 'station', 'moduleIo', 'multidrop'] as const satisfies readonly (keyof Route)[]
 
 /** The route fields are echoed (SLMP reference manual 4.2). */
-function mismatch(asked: Route, answered: Route): string | undefined {
+function mismatch(asked: Route, answered: Head): string | undefined {
   for (const field of ROUTE_FIELDS) {
     if (asked[field] !== answered[field]) return `${field} is ${answered[field]}, asked ${asked[field]}`
   }

@@ -1,0 +1,50 @@
+// What a client needs of a protocol: the SLMP command set in whatever frame. No client knows what stands in a head.
+import type { DataCode } from '../codec/codec'
+import type { ProtocolError } from '../errors'
+import type { AnswerFraming, Exchange, FrameExplainer, RequestFrame } from '../link/link'
+import type { Command, RequestOf, ResponseOf } from './commands/command'
+import type { FrameName } from './frame/frames'
+import type { Route } from './frame/route'
+import type { Profile } from './profiles/profile'
+import type { ExchangeOptions } from './protocol'
+
+/** How a client speaks to its PLC. */
+export interface ProtocolOptions {
+  readonly frame: FrameName
+  readonly code: DataCode
+  readonly profile: Profile
+  readonly route: Route
+  /** Monitoring timer in units of 250 ms. */
+  readonly timer: number
+  readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
+  readonly asciiZr?: 'decimal' | 'hexadecimal' | undefined
+}
+
+/** A frame that came unasked. */
+export interface UnaskedFrame {
+  readonly route: Route
+  /** The data of On-demand, low byte of each word first; or why it is none that can be read. */
+  readonly data: Buffer | ProtocolError
+}
+
+/** How addresses and devices are shown in explanations; default: as the profile has it. */
+export interface ShownAs {
+  readonly xyRadix?: 8 | 16
+  readonly wRadix?: 10 | 16
+}
+
+export interface ClientProtocol {
+  readonly framing: AnswerFraming
+  readonly profile: Profile
+  readonly code: DataCode
+  /**
+   * A request ready to be sent: to the station of the route, or to the connected one where its declaration says so.
+   * @throws RequestError with what is wrong, where, and what to do
+   */
+  exchange<C extends Command>(command: C, message: RequestOf<C>, options?: ExchangeOptions): Exchange<ResponseOf<C>>
+  /** Reads a frame that came unasked; absent where none ever does. */
+  readonly readUnasked?: (frame: RequestFrame) => UnaskedFrame
+  /** Bytes of the frame of an answer with this body. */
+  answerBytes(body: number): number
+  explainer(shownAs: ShownAs): FrameExplainer
+}
