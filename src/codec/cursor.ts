@@ -87,7 +87,7 @@ export abstract class Output {
     const buffer = this.buffer
     for (let i = 0; i < value.length; i++) {
       const character = value.charCodeAt(i)
-      if (character > 0xff) refuse(`character ${i} (${value[i]}) is not a one-byte character`)
+      if (character > 0xff) badMessage(`character ${i} (${value[i]}) is not a one-byte character`)
       buffer[at++] = character
     }
   }
@@ -153,11 +153,11 @@ export function failAt(code: ProtocolErrorCode, offset: number, bytes: Buffer, m
 }
 
 /** Throws the `RequestError` for a message value that no frame can carry. */
-export function refuse(message: string): never {
+export function badMessage(message: string): never {
   throw new RequestError('BAD_MESSAGE', message)
 }
 
 /** Throws the `RequestError` for an element of a bulk field; it may be of any type, BigInt and text included. */
 export function refuseElement(i: number, found: unknown, expected: string): never {
-  return refuse(`element ${i} is ${typeof found === 'number' ? found : `a ${typeof found}`}; ${expected}`)
+  return badMessage(`element ${i} is ${typeof found === 'number' ? found : `a ${typeof found}`}; ${expected}`)
 }

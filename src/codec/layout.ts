@@ -1,7 +1,7 @@
 // The one place that gives a field its meaning, for both directions and both codes.
 import { RequestError } from '../errors'
 import { asked, type Context, countIn, countToRead, isArrayLike } from './count'
-import type { Reader, Writer } from './cursor'
+import { badMessage, type Reader, type Writer } from './cursor'
 import {
   type BulkField,
   type Charset,
@@ -41,7 +41,7 @@ function encodeMessage(shape: Shape, given: unknown, writer: Writer, context: Co
 
 function messageToWrite(shape: Shape, given: unknown): Message {
   if (typeof given !== 'object' || given === null || Array.isArray(given)) {
-    bad(`must be an object with ${namesOf(shape)}, is ${show(given)}`)
+    badMessage(`must be an object with ${namesOf(shape)}, is ${show(given)}`)
   }
   const message = given as Message
   for (const name in message) {
@@ -121,7 +121,7 @@ function put(
 
 function putValue(field: Extract<Field, { kind: 'value' }>, given: unknown, writer: Writer): void {
   const value = given === undefined ? field.default : given
-  if (value === undefined || value === null) bad('is missing')
+  if (value === undefined || value === null) badMessage('is missing')
   field.codec.write(writer, value)
 }
 
@@ -132,9 +132,9 @@ function putEcho(of: string, writer: Writer, context: Context | undefined): void
 
 function putEach(of: string, item: BulkField, given: unknown, writer: Writer, context: Context | undefined): void {
   const elements = asked(context).message[of] as readonly Message[]
-  if (!Array.isArray(given)) bad(`must be an array, is ${show(given)}`)
+  if (!Array.isArray(given)) badMessage(`must be an array, is ${show(given)}`)
   if (given.length !== elements.length)
-    bad(`has ${given.length} element(s), the request's ${of} has ${elements.length}`)
+    badMessage(`has ${given.length} element(s), the request's ${of} has ${elements.length}`)
   eachToWrite(given as readonly unknown[], (part, i) => put(item, '', part, elements[i] as Message, writer, undefined))
 }
 
@@ -149,17 +149,13 @@ function eachToWrite(given: readonly unknown[], write: (element: unknown, i: num
   }
 }
 
-function bad(reason: string): never {
-  throw new RequestError('BAD_MESSAGE', reason)
-}
-
 function integerToWrite(field: IntegerField, given: unknown): number {
   const number = given === undefined ? field.default : given
-  if (typeof number !== 'number' || !Number.isInteger(number)) bad(`must be a whole number, is ${show(given)}`)
+  if (typeof number !== 'number' || !Number.isInteger(number)) badMessage(`must be a whole number, is ${show(given)}`)
   const [min, max] = boundsOf(field)
-  if (number < min || number > max) bad(`is ${number}, must be ${min} to ${max}`)
-  if (!isMultiple(field, number)) bad(`is ${number}, must be a multiple of ${field.multipleOf}`)
-  if (field.oneOf?.includes(number) === false) bad(`is ${number}, must be one of ${field.oneOf.join(', ')}`)
+  if (number < min || number > max) badMessage(`is ${number}, must be ${min} to ${max}`)
+  if (!isMultiple(field, number)) badMessage(`is ${number}, must be a multiple of ${field.multipleOf}`)
+  if (field.oneOf?.includes(number) === false) badMessage(`is ${number}, must be one of ${field.oneOf.join(', ')}`)
   return number === field.zeroMeans ? 0 : number
 }
 
@@ -174,17 +170,17 @@ function boundsOf(field: IntegerField): readonly [min: number, max: number] {
 function countToWrite(field: Extract<Field, { kind: 'count' }>, length: number): number {
   const max = field.max ?? 2 ** (8 * field.width) - 1
   if (length < (field.min ?? 0) || length > max) {
-    bad(`${field.of} has ${length} element(s), must have ${field.min ?? 0} to ${max}`)
+    badMessage(`${field.of} has ${length} element(s), must have ${field.min ?? 0} to ${max}`)
   }
   if (!isMultiple(field, length)) {
-    bad(`${field.of} has ${length} element(s), must have a multiple of ${field.multipleOf}`)
+    badMessage(`${field.of} has ${length} element(s), must have a multiple of ${field.multipleOf}`)
   }
   return length === field.zeroMeans ? 0 : length
 }
 
 function lengthOf(given: unknown, name: string): number {
   if (typeof given === 'string' || isArrayLike(given)) return given.length
-  return bad(`${name} is missing`)
+  return badMessage(`${name} is missing`)
 }
 
 function arrayToWrite(
@@ -194,15 +190,16 @@ function arrayToWrite(
   message: Message,
   context: Context | undefined,
 ): ArrayLike<unknown> {
-  if (!isArrayLike(given)) bad(`must be an array, is ${show(given)}`)
+  if (!isArrayLike(given)) badMessage(`must be an array, is ${show(given)}`)
   const expected = countIn(field.count, name, message, context)
-  if (expected !== undefined && given.length !== expected) bad(`has ${given.length} element(s), must have ${expected}`)
+  if (expected !== undefined && given.length !== expected)
+    badMessage(`has ${given.length} element(s), must have ${expected}`)
   return given
 }
 
 function booleansToWrite(values: ArrayLike<unknown>): ArrayLike<boolean> {
   for (let i = 0; i < values.length; i++) {
-    if (typeof values[i] !== 'boolean') bad(`element ${i} is ${show(values[i])}, must be true or false`)
+    if (typeof values[i] !== 'boolean') badMessage(`element ${i} is ${show(values[i])}, must be true or false`)
   }
   return values as ArrayLike<boolean>
 }
@@ -224,12 +221,13 @@ function textToWrite(
   message: Message,
   context: Context | undefined,
 ): string {
-  if (typeof given !== 'string') bad(field.secret === true ? 'must be a text' : `must be a text, is ${show(given)}`)
+  if (typeof given !== 'string')
+    badMessage(field.secret === true ? 'must be a text' : `must be a text, is ${show(given)}`)
   const expected = countIn(field.count, name, message, context)
   if (expected !== undefined && given.length !== expected)
-    bad(`has ${given.length} character(s), must have ${expected}`)
+    badMessage(`has ${given.length} character(s), must have ${expected}`)
   const missing = notInCharset(field.charset, given)
-  if (missing !== undefined) bad(`may hold only the characters ${missing}`)
+  if (missing !== undefined) badMessage(`may hold only the characters ${missing}`)
   return given
 }
 
@@ -246,9 +244,10 @@ function listToWrite(
   message: Message,
   context: Context | undefined,
 ): readonly unknown[] {
-  if (!Array.isArray(given)) bad(`must be an array, is ${show(given)}`)
+  if (!Array.isArray(given)) badMessage(`must be an array, is ${show(given)}`)
   const expected = countIn(field.count, name, message, context)
-  if (expected !== undefined && given.length !== expected) bad(`has ${given.length} element(s), must have ${expected}`)
+  if (expected !== undefined && given.length !== expected)
+    badMessage(`has ${given.length} element(s), must have ${expected}`)
   return given
 }
 

@@ -1,5 +1,6 @@
 // Which MELSEC-Q modules Extend Unit (0601, 1601) reaches, and how their buffer memory is addressed there
 // (SLMP reference manual 5.5). Other modules: module access devices, U3\G100.
+import { badOption } from '../basics/option-checks'
 import { RequestError } from '../errors'
 
 /** Modules that are addressed alike. */
@@ -80,19 +81,22 @@ const LAST_ADDRESS = 0xffffffff
 export function extendUnitOf(model: string, { startIo, slot0 }: ModulePlace): ExtendUnit {
   const found = infoOf(model)
   if (!Number.isInteger(startIo) || startIo < 0 || startIo > LAST_START_IO || startIo % 16 !== 0) {
-    bad(`startIo is ${String(startIo)}; it is a multiple of 16 from 0 to 0xFF0, as X/Y 30 to 4F has 0x30.`, 'startIo')
+    badOption(
+      'startIo',
+      `startIo is ${String(startIo)}; it is a multiple of 16 from 0 to 0xFF0, as X/Y 30 to 4F has 0x30.`,
+    )
   }
   const first = slot0 ?? found.info.slot0
   if (first === undefined) {
-    bad(
+    badOption(
+      'slot0',
       `The module No. of ${found.model} on slot 0 is not legible in the manual at hand: look it up in the table of Extend ` +
         'Unit in your SLMP manual and give it as slot0 (0 or 1). A wrong one would reach another module.',
-      'slot0',
     )
   }
-  if (first !== 0 && first !== 1) bad(`slot0 is ${String(first)}; it is 0 or 1.`, 'slot0')
+  if (first !== 0 && first !== 1) badOption('slot0', `slot0 is ${String(first)}; it is 0 or 1.`)
   if (slot0 !== undefined && found.info.slot0 !== undefined && slot0 !== found.info.slot0) {
-    bad(`slot0 is ${slot0}, but of ${found.model} it is ${found.info.slot0}: leave it out.`, 'slot0')
+    badOption('slot0', `slot0 is ${slot0}, but of ${found.model} it is ${found.info.slot0}: leave it out.`)
   }
   return { model: found.model, startAddress: found.info.startAddress, moduleNumber: startIo / 16 + first }
 }
@@ -106,11 +110,11 @@ function infoOf(model: string): { readonly model: string; readonly info: ExtendU
   const versions = extendUnits
     .flatMap(({ models }) => models)
     .filter((name) => name.toUpperCase().startsWith(`${wanted} (`))
-  return bad(
+  return badOption(
+    'model',
     versions.length > 0
       ? `${wanted} differs by its function version: say ${versions.join(' or ')}.`
       : `Extend Unit does not know the module ${JSON.stringify(String(model).slice(0, 40))}. Use module access devices instead, e.g. U3\\G100.`,
-    'model',
   )
 }
 
@@ -123,8 +127,4 @@ export function byteAddressOf(unit: ExtendUnit, address: number): number {
     `${String(address)} is not a buffer memory address of ${unit.model}.`,
     'address',
   )
-}
-
-function bad(message: string, field: string): never {
-  throw new RequestError('BAD_OPTION', message, field)
 }

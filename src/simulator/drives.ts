@@ -1,5 +1,5 @@
 // The drives of a simulated PLC: what a program says they hold, and what they hold when it says nothing.
-import { RequestError } from '../errors'
+import { badOption } from '../basics/option-checks'
 import { type FileTime, isFileTime } from '../melsec/file/time'
 import type { Profile } from '../melsec/profiles/profile'
 import { type Drive, type DrivePath, keyOf, MemoryDrive, pathOf } from './drive'
@@ -18,21 +18,20 @@ export interface MountedDrive {
 
 const CAPACITY = 4 * 1024 * 1024
 
-function bad(field: string, message: string): never {
-  throw new RequestError('BAD_OPTION', message, field)
-}
-
 /** @throws RequestError BAD_OPTION */
 export function drivesOf(profile: Profile, given: SimulatedDrives, now: FileTime): ReadonlyMap<number, MountedDrive> {
   const known = profile.files.drives
   for (const number of Object.keys(given)) {
     if (known.some((drive) => String(drive.number) === number)) continue
     const list = known.map((drive) => drive.number).join(', ')
-    bad(`drives.${number}`, `${profile.title} has no drive ${number}${list === '' ? '' : `; its drives are ${list}`}.`)
+    badOption(
+      `drives.${number}`,
+      `${profile.title} has no drive ${number}${list === '' ? '' : `; its drives are ${list}`}.`,
+    )
   }
   const own = known.filter(({ number, same }) => {
     if (same === undefined) return true
-    if (given[number] !== undefined) bad(`drives.${number}`, `Drive ${number} is drive ${same}: give that one.`)
+    if (given[number] !== undefined) badOption(`drives.${number}`, `Drive ${number} is drive ${same}: give that one.`)
     return false
   })
   return new Map(
@@ -45,24 +44,27 @@ export function drivesOf(profile: Profile, given: SimulatedDrives, now: FileTime
 
 function mounted(profile: Profile, number: number, given: SimulatedDrive, now: FileTime): MountedDrive {
   const field = `drives.${number}`
-  if (typeof given !== 'object' || given === null) bad(field, `${field} is an object with files or folder, or false.`)
+  if (typeof given !== 'object' || given === null)
+    badOption(field, `${field} is an object with files or folder, or false.`)
   const { files, folder, capacity = CAPACITY, writeProtected = false } = given
   for (const name of Object.keys(given)) {
     if (['files', 'folder', 'capacity', 'writeProtected'].includes(name)) continue
-    bad(`${field}.${name}`, `A drive has no ${name}: it has files, folder, capacity, writeProtected.`)
+    badOption(`${field}.${name}`, `A drive has no ${name}: it has files, folder, capacity, writeProtected.`)
   }
-  if (!Number.isInteger(capacity) || capacity < 0) bad(`${field}.capacity`, `${field}.capacity is a number of bytes.`)
-  if (folder !== undefined && files !== undefined) bad(field, `${field} is a folder or has files, not both.`)
+  if (!Number.isInteger(capacity) || capacity < 0)
+    badOption(`${field}.capacity`, `${field}.capacity is a number of bytes.`)
+  if (folder !== undefined && files !== undefined) badOption(field, `${field} is a folder or has files, not both.`)
   const passwords = new Map<string, string>()
   if (folder !== undefined) {
-    if (typeof folder !== 'string') bad(`${field}.folder`, `${field}.folder is the path of a folder.`)
+    if (typeof folder !== 'string') badOption(`${field}.folder`, `${field}.folder is the path of a folder.`)
     return { drive: new FolderDrive(folder), capacity, writeProtected, passwords }
   }
   const drive = new MemoryDrive(now)
   for (const [name, file] of Object.entries(files ?? usualFiles(profile, number))) {
     addFile(drive, passwords, `${field}.files`, name, file, now)
   }
-  if (drive.used() > capacity) bad(field, `The files of ${field} take ${drive.used()} bytes, more than its capacity.`)
+  if (drive.used() > capacity)
+    badOption(field, `The files of ${field} take ${drive.used()} bytes, more than its capacity.`)
   return { drive, capacity, writeProtected, passwords }
 }
 
@@ -74,15 +76,16 @@ function addFile(
   given: string | Uint8Array | SimulatedFile,
   now: FileTime,
 ): void {
-  const path: DrivePath = pathOf(name) ?? bad(field, `${JSON.stringify(name)} is no file name, e.g. LOG\\LINE.CSV.`)
+  const path: DrivePath =
+    pathOf(name) ?? badOption(field, `${JSON.stringify(name)} is no file name, e.g. LOG\\LINE.CSV.`)
   const file: SimulatedFile = typeof given === 'string' || given instanceof Uint8Array ? { data: given } : given
   const { data, readOnly = false, password = '', modified = now } = file
-  if (typeof data !== 'string' && !(data instanceof Uint8Array)) bad(field, `${name}: data is a text or bytes.`)
-  if (!isFileTime(modified)) bad(field, `${name}: modified is no date a file can have.`)
+  if (typeof data !== 'string' && !(data instanceof Uint8Array)) badOption(field, `${name}: data is a text or bytes.`)
+  if (!isFileTime(modified)) badOption(field, `${name}: modified is no date a file can have.`)
   const bytes = Buffer.from(data)
-  if (drive.find(path) !== undefined) bad(field, `${name} is there twice.`)
+  if (drive.find(path) !== undefined) badOption(field, `${name} is there twice.`)
   drive.makeDirectories(path.slice(0, -1), now)
-  if (drive.list(path.slice(0, -1)) === undefined) bad(field, `${name}: a part of its path is a file.`)
+  if (drive.list(path.slice(0, -1)) === undefined) badOption(field, `${name}: a part of its path is a file.`)
   drive.create(path, bytes.length, modified)
   drive.write(path, 0, bytes)
   drive.setReadOnly(path, readOnly)

@@ -1,5 +1,5 @@
 // Fault switches: which faults are on, for which requests, and how often still.
-import { RequestError } from '../errors'
+import { badOption } from '../basics/option-checks'
 import { type CommandName, commands } from '../melsec/commands/commands'
 import { type FaultAction, type FaultKind, type FaultParameter, type FaultSettings, faultKinds } from './fault-kinds'
 
@@ -111,12 +111,12 @@ const AIM: readonly string[] = ['kind', 'commands', 'times', 'when'] satisfies r
 /** Checks a fault and fills in the defaults. */
 function settingsOf(fault: Fault): Readonly<Record<string, number | string>> {
   if (!Object.hasOwn(faultKinds, fault.kind)) {
-    bad('kind', `There is no fault ${JSON.stringify(fault.kind)}: choose ${Object.keys(faultKinds).join(', ')}.`)
+    badOption('kind', `There is no fault ${JSON.stringify(fault.kind)}: choose ${Object.keys(faultKinds).join(', ')}.`)
   }
   const parameters: Readonly<Record<string, FaultParameter>> = faultKinds[fault.kind].parameters
   for (const name of Object.keys(fault)) {
     if (AIM.includes(name) || Object.hasOwn(parameters, name)) continue
-    bad(name, `Fault ${fault.kind} has no ${name}: it has ${[...Object.keys(parameters), ...AIM].join(', ')}.`)
+    badOption(name, `Fault ${fault.kind} has no ${name}: it has ${[...Object.keys(parameters), ...AIM].join(', ')}.`)
   }
   checkAim(fault)
   const given = new Map<string, unknown>(Object.entries(fault))
@@ -131,23 +131,22 @@ function setting(field: string, parameter: FaultParameter, given: unknown): numb
   const value = given ?? parameter.default
   if ('oneOf' in parameter) {
     if (typeof value === 'string' && parameter.oneOf.includes(value)) return value
-    return bad(field, `Fault ${field} (${parameter.title}) is ${parameter.oneOf.join(' or ')}, not ${String(value)}.`)
+    return badOption(
+      field,
+      `Fault ${field} (${parameter.title}) is ${parameter.oneOf.join(' or ')}, not ${String(value)}.`,
+    )
   }
   const { min, max = Number.MAX_SAFE_INTEGER } = parameter
   if (typeof value === 'number' && Number.isInteger(value) && value >= min && value <= max) return value
-  return bad(field, `Fault ${field} (${parameter.title}) is a whole number from ${min}, not ${String(value)}.`)
+  return badOption(field, `Fault ${field} (${parameter.title}) is a whole number from ${min}, not ${String(value)}.`)
 }
 
 function checkAim({ commands: only, times, when }: Fault): void {
   for (const name of only ?? []) {
-    if (!Object.hasOwn(commands, name)) bad('commands', `There is no command ${String(name)}.`)
+    if (!Object.hasOwn(commands, name)) badOption('commands', `There is no command ${String(name)}.`)
   }
   if (times !== undefined && !(Number.isInteger(times) && times > 0)) {
-    bad('times', `A fault strikes a whole number of times from 1, not ${String(times)}.`)
+    badOption('times', `A fault strikes a whole number of times from 1, not ${String(times)}.`)
   }
-  if (when !== undefined && typeof when !== 'function') bad('when', 'A fault takes a function for when.')
-}
-
-function bad(field: string, message: string): never {
-  throw new RequestError('BAD_OPTION', message, field)
+  if (when !== undefined && typeof when !== 'function') badOption('when', 'A fault takes a function for when.')
 }

@@ -1,5 +1,4 @@
-import { declare, field, type ValueCodec } from '../../codec/codec'
-import { RequestError } from '../../errors'
+import { badMessage, declare, field, type ValueCodec } from '../../codec/codec'
 
 const { value } = field
 
@@ -16,12 +15,15 @@ export const onDemandData: ValueCodec<Uint8Array> = {
   name: 'on-demand data',
   variable: true,
   write(writer, given) {
-    if (!(given instanceof Uint8Array) && !Array.isArray(given)) bad('must be bytes')
-    if (given.length > MOST) bad(`has ${given.length} bytes, must have at most ${MOST} (${MOST / 2} words)`)
+    if (!(given instanceof Uint8Array) && !Array.isArray(given)) badMessage('must be bytes')
+    if (given.length > MOST) badMessage(`has ${given.length} bytes, must have at most ${MOST} (${MOST / 2} words)`)
     const wrong = Array.from<number>(given).find((byte) => !isByte(byte))
-    if (wrong !== undefined) bad(`has ${String(wrong)}, must have bytes from 0 to 255`)
+    if (wrong !== undefined) badMessage(`has ${String(wrong)}, must have bytes from 0 to 255`)
     if (!writer.ascii) writer.bytes(given)
-    else writer.words(wordsOfBytes(given) ?? bad(`has ${given.length} bytes; ASCII code carries whole words: add one`))
+    else
+      writer.words(
+        wordsOfBytes(given) ?? badMessage(`has ${given.length} bytes; ASCII code carries whole words: add one`),
+      )
   },
   read(reader) {
     const bytes = reader.ascii ? reader.remaining / 2 : reader.remaining
@@ -31,10 +33,6 @@ export const onDemandData: ValueCodec<Uint8Array> = {
     return bytesOfWords(reader.words(bytes / 2))
   },
   size: (ascii, _form, given) => (ascii ? 2 : 1) * (given?.length ?? 0),
-}
-
-function bad(reason: string): never {
-  throw new RequestError('BAD_MESSAGE', reason)
 }
 
 function isByte(given: number): boolean {
@@ -71,5 +69,3 @@ export const unsolicitedCommands = declare({
     response: {},
   },
 })
-
-/** Names of what a PLC sends of its own accord. */

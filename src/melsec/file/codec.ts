@@ -1,7 +1,6 @@
 // What file commands carry and width alone cannot say. The subcommand decides: 0000 and 0004 have names in Shift-JIS
 // and passwords of 4 characters, 0040 has names in UTF-16 and passwords with their length (SLMP reference manual 5.8).
-import type { Reader, ValueCodec, Writer } from '../../codec/codec'
-import { RequestError } from '../../errors'
+import { badMessage, type Reader, type ValueCodec, type Writer } from '../../codec/codec'
 import { checkLongPath, LONG_NAME, SHORT_NAME, type ShortName, shortNameOf } from './name'
 import { fromShiftJis } from './shift-jis'
 
@@ -14,10 +13,6 @@ export const FILE_BITS = FORM_FILE_UTF16 | FORM_FILE_0004
 
 function isUtf16(form: number): boolean {
   return (form & FORM_FILE_UTF16) !== 0
-}
-
-function bad(reason: string): never {
-  throw new RequestError('BAD_MESSAGE', reason)
 }
 
 /** The size of these is in the bytes themselves, or in the value. */
@@ -54,7 +49,7 @@ export const driveNumber: ValueCodec<number> = {
   takes: 'the number of a drive, 0 to 65535',
   example: 4,
   write(writer, value) {
-    if (!Number.isInteger(value) || value < 0 || value > 0xffff) bad('must be the number of a drive, 0 to 65535')
+    if (!Number.isInteger(value) || value < 0 || value > 0xffff) badMessage('must be the number of a drive, 0 to 65535')
     writer.uint(value, 2)
   },
   read: (reader) => reader.uint(2),
@@ -76,7 +71,7 @@ export const fileName: ValueCodec<string> = {
   variable: true,
   write(writer, value) {
     if (isUtf16(writer.form)) {
-      if (checkLongPath(value, 'file') === '') bad('must be the name of a file')
+      if (checkLongPath(value, 'file') === '') badMessage('must be the name of a file')
       writeUtf16(writer, value)
       return
     }
@@ -104,7 +99,7 @@ export const directoryPath: ValueCodec<string> = {
   variable: true,
   write(writer, value) {
     const path = checkLongPath(value, 'directory')
-    if (!isUtf16(writer.form) && path !== '') bad('drives of Q and L have no directories: leave it out')
+    if (!isUtf16(writer.form) && path !== '') badMessage('drives of Q and L have no directories: leave it out')
     writeUtf16(writer, path)
   },
   read(reader) {
@@ -120,13 +115,13 @@ const PASSWORD = { short: 4, long: 32 } as const
 const NO_PASSWORD = ' '.repeat(PASSWORD.short)
 
 function checkPassword(value: unknown): asserts value is string {
-  if (typeof value !== 'string') bad('must be a text')
-  if (!/^[\x20-\x7e]*$/.test(value)) bad('may hold only the characters 20H to 7EH (ASCII)')
+  if (typeof value !== 'string') badMessage('must be a text')
+  if (!/^[\x20-\x7e]*$/.test(value)) badMessage('may hold only the characters 20H to 7EH (ASCII)')
 }
 
 function writeShortPassword(writer: Writer, value: string): void {
   if (value !== '' && value.length !== PASSWORD.short) {
-    bad(`has ${value.length} characters, a file password of this PLC has ${PASSWORD.short}; '' is none`)
+    badMessage(`has ${value.length} characters, a file password of this PLC has ${PASSWORD.short}; '' is none`)
   }
   writer.text(value === '' ? NO_PASSWORD : value)
 }
@@ -149,7 +144,7 @@ export const filePassword: ValueCodec<string> = {
       return
     }
     if (value.length > PASSWORD.long)
-      bad(`has ${value.length} characters, a file password has at most ${PASSWORD.long}`)
+      badMessage(`has ${value.length} characters, a file password has at most ${PASSWORD.long}`)
     writer.uint(value.length, 2)
     writer.text(value)
   },
@@ -170,7 +165,7 @@ export const searchPassword: ValueCodec<string> = {
       writeShortPassword(writer, value)
       return
     }
-    if (value !== '') bad('is not taken by this command on this PLC: leave it out')
+    if (value !== '') badMessage('is not taken by this command on this PLC: leave it out')
     writer.text((writer.ascii ? '0' : '\0').repeat(PASSWORD.short))
   },
   read(reader) {
@@ -189,7 +184,7 @@ function last(form: number): number {
 
 function writeFileNumber(writer: Writer, value: number): void {
   if (!Number.isInteger(value) || value < 0 || value > last(writer.form)) {
-    bad(`is ${String(value)}, must be a whole number from 0 to ${last(writer.form)}`)
+    badMessage(`is ${String(value)}, must be a whole number from 0 to ${last(writer.form)}`)
   }
   writer.uint(value, isUtf16(writer.form) ? 4 : 2)
 }
@@ -210,7 +205,7 @@ export const lastFileNumber: ValueCodec<number> = {
   variable: true,
   write(writer, value) {
     if (isUtf16(writer.form)) writeFileNumber(writer, value)
-    else if (value !== 0) bad('does not exist with subcommand 0000: it is 0')
+    else if (value !== 0) badMessage('does not exist with subcommand 0000: it is 0')
   },
   read: (reader) => (isUtf16(reader.form) && reader.remaining > 0 ? reader.uint(4) : 0),
   size: (ascii, form) => (isUtf16(form) ? onWire(4, ascii) : 0),
@@ -229,7 +224,7 @@ export const entryName: ValueCodec<string> = {
   variable: true,
   write(writer, value) {
     if (isUtf16(writer.form)) {
-      if (typeof value !== 'string' || value === '' || value.length > LONG_NAME.path) bad('must be a name')
+      if (typeof value !== 'string' || value === '' || value.length > LONG_NAME.path) badMessage('must be a name')
       writeUtf16(writer, value)
       return
     }

@@ -1,4 +1,5 @@
 // Which names files can have (SLMP reference manual 5.8, File name length and File name).
+import { badMessage } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import { toShiftJis } from './shift-jis'
 
@@ -10,10 +11,6 @@ export const LONG_NAME = { name: 64, path: 252 } as const
 /** Between directories. */
 export const SEPARATOR = '\\'
 
-function bad(reason: string): never {
-  throw new RequestError('BAD_MESSAGE', reason)
-}
-
 // Background: the SLMP manual leaves them to the manuals of the modules; no file system of a CPU takes them.
 const FORBIDDEN = /["*/:<>?|\p{Cc}\p{Surrogate}]/u
 
@@ -21,7 +18,9 @@ function checkCharacters(text: string): void {
   const [found] = FORBIDDEN.exec(text) ?? []
   if (found === undefined) return
   const remedy = found === '/' || found === ':' ? 'write the path from the root as DIR\\FILE.CSV' : 'leave it out'
-  bad(`${JSON.stringify(text)} has the character ${JSON.stringify(found)}, which no file name can have: ${remedy}`)
+  badMessage(
+    `${JSON.stringify(text)} has the character ${JSON.stringify(found)}, which no file name can have: ${remedy}`,
+  )
 }
 
 /** Name and extension as they are sent: Shift-JIS, each byte one character. */
@@ -35,11 +34,11 @@ export interface ShortName {
  * @throws RequestError BAD_MESSAGE
  */
 export function shortNameOf(given: unknown): ShortName {
-  if (typeof given !== 'string' || given === '') bad('must be the name of a file')
+  if (typeof given !== 'string' || given === '') badMessage('must be the name of a file')
   checkCharacters(given)
-  if (given.includes(SEPARATOR)) bad(`${JSON.stringify(given)} is a path: drives of Q and L have no directories`)
+  if (given.includes(SEPARATOR)) badMessage(`${JSON.stringify(given)} is a path: drives of Q and L have no directories`)
   const bytes = toShiftJis(given)
-  if (bytes === undefined) bad(`${JSON.stringify(given)} has characters that do not exist in Shift-JIS`)
+  if (bytes === undefined) badMessage(`${JSON.stringify(given)} has characters that do not exist in Shift-JIS`)
   // The period is a byte of its own in Shift-JIS: 2EH is never the second byte of a character.
   const period = bytes.lastIndexOf('.')
   const stem = period < 0 ? bytes : bytes.slice(0, period)
@@ -50,7 +49,7 @@ export function shortNameOf(given: unknown): ShortName {
     extension.length <= SHORT_NAME.extension &&
     !stem.includes('.')
   if (!fits || bytes.endsWith('.') || /^ | $/.test(stem) || /^ | $/.test(extension)) {
-    bad(
+    badMessage(
       `${JSON.stringify(given)} is no file name of this PLC: 1 to 8 characters, a period and an extension of up to 3 ` +
         '(full-width characters count twice), without spaces around them',
     )
@@ -74,17 +73,19 @@ export function isShortName(name: string): boolean {
  * @throws RequestError BAD_MESSAGE
  */
 export function checkLongPath(given: unknown, what: 'file' | 'directory'): string {
-  if (typeof given !== 'string') bad(`must be the name of a ${what}`)
+  if (typeof given !== 'string') badMessage(`must be the name of a ${what}`)
   const path = given.startsWith(SEPARATOR) ? given.slice(1) : given
   if (path === '' && what === 'directory') return given
   checkCharacters(path)
   const names = path.split(SEPARATOR)
   if (names.some((name) => name === '' || name === '.' || name === '..')) {
-    bad(`${JSON.stringify(given)} must be a path from the root, each part the name of a directory or of the ${what}`)
+    badMessage(
+      `${JSON.stringify(given)} must be a path from the root, each part the name of a directory or of the ${what}`,
+    )
   }
   const long = names.find((name) => name.length > LONG_NAME.name)
   if (long !== undefined)
-    bad(`the name ${JSON.stringify(long)} has ${long.length} characters, at most ${LONG_NAME.name}`)
-  if (path.length > LONG_NAME.path) bad(`has ${path.length} characters with its path, at most ${LONG_NAME.path}`)
+    badMessage(`the name ${JSON.stringify(long)} has ${long.length} characters, at most ${LONG_NAME.name}`)
+  if (path.length > LONG_NAME.path) badMessage(`has ${path.length} characters with its path, at most ${LONG_NAME.path}`)
   return given
 }

@@ -1,12 +1,7 @@
 // What label commands carry and width alone cannot say: names in UTF-16, and data whose length is told in bits or bytes.
-import type { Reader, ValueCodec, Writer } from '../../codec/codec'
-import { RequestError } from '../../errors'
+import { badMessage, type Reader, type ValueCodec, type Writer } from '../../codec/codec'
 
 const WORD_BITS = 16
-
-function bad(reason: string): never {
-  throw new RequestError('BAD_MESSAGE', reason)
-}
 
 /** Bytes in binary code, twice as many characters in ASCII code. */
 function onWire(bytes: number, ascii: boolean): number {
@@ -23,8 +18,8 @@ export const labelName: ValueCodec<string> = {
   example: 'Line1.Speed',
   variable: true,
   write(writer, value) {
-    if (typeof value !== 'string' || value === '') bad('must be the name of a label')
-    if (value.length > 0xffff) bad(`has ${value.length} characters, must have 1 to 65535`)
+    if (typeof value !== 'string' || value === '') badMessage('must be the name of a label')
+    if (value.length > 0xffff) badMessage(`has ${value.length} characters, must have 1 to 65535`)
     writer.uint(value.length, 2)
     writer.words(Array.from({ length: value.length }, (_, i) => value.charCodeAt(i)))
   },
@@ -49,8 +44,8 @@ export const labelData: ValueCodec<readonly number[]> = {
   example: [1234],
   variable: true,
   write(writer, value) {
-    if (!Array.isArray(value)) bad('must be an array of words')
-    if (value.length > 0x7fff) bad(`has ${value.length} words, must have at most 32767`)
+    if (!Array.isArray(value)) badMessage('must be an array of words')
+    if (value.length > 0x7fff) badMessage(`has ${value.length} words, must have at most 32767`)
     writer.uint(2 * value.length, 2)
     writer.words(value)
   },
@@ -80,15 +75,15 @@ export function wordsOfArea({ unit, length }: Pick<LabelArea, 'unit' | 'length'>
 }
 
 function checkArea(value: LabelArea): void {
-  if (typeof value !== 'object' || value === null) bad('must be an object with unit, length and words')
+  if (typeof value !== 'object' || value === null) badMessage('must be an object with unit, length and words')
   const { unit, length, words } = value
-  if (unit !== 0 && unit !== 1) bad(`unit is ${String(unit)}, must be 0 (bits) or 1 (bytes)`)
+  if (unit !== 0 && unit !== 1) badMessage(`unit is ${String(unit)}, must be 0 (bits) or 1 (bytes)`)
   if (!Number.isInteger(length) || length < 0 || length > 0xffff) {
-    bad(`length is ${String(length)}, must be 0 to 65535`)
+    badMessage(`length is ${String(length)}, must be 0 to 65535`)
   }
-  if (!Array.isArray(words)) bad('words must be an array')
+  if (!Array.isArray(words)) badMessage('words must be an array')
   if (words.length !== wordsOfArea(value)) {
-    bad(`has ${words.length} words, ${length} ${unit === 0 ? 'bits' : 'bytes'} take ${wordsOfArea(value)}`)
+    badMessage(`has ${words.length} words, ${length} ${unit === 0 ? 'bits' : 'bytes'} take ${wordsOfArea(value)}`)
   }
 }
 
