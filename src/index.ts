@@ -4,7 +4,7 @@
 export type { CallOptions } from './client/connection/call'
 export type { ConnectionState } from './client/connection/connection'
 export type { RoundTrip, Statistics } from './client/connection/statistics'
-export type { ConnectionStateName } from './client/connection/supervisor'
+export type { ConnectionStateName, Phase } from './client/connection/supervisor'
 export type { TraceEntry } from './client/connection/trace'
 export type {
   CopyOptions,
@@ -17,7 +17,8 @@ export type {
   Files,
   FileWriteOptions,
 } from './client/file/files'
-export { headOfError, nameResults } from './client/item/about'
+export type { WriteMode } from './client/file/write'
+export { headOfError, type ItemResult, nameResults } from './client/item/about'
 export type { Item, ItemOptions } from './client/item/item'
 export type {
   Items,
@@ -55,34 +56,47 @@ export type {
 export { createMelsecClient, MelsecClient } from './client/melsec/melsec-client'
 export type { RequestExplanation } from './client/melsec/named-request'
 export type { MelsecClientOptions } from './client/melsec/options'
+export type { ProbeKind } from './client/melsec/probes'
 export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
 export type { PlanDescription, RequestDescription } from './client/plan/request'
 export type { WriteOptions } from './client/plan/write'
-export type { DataCode, Declaration, MessageInput, MessageOf } from './codec/codec'
+export type { DataCode, Declaration, Effect, MessageInput, MessageOf, Shape } from './codec/codec'
 export {
+  type CauseData,
   ClosedError,
+  type ClosedErrorCode,
   ConnectionError,
+  type ConnectionErrorCode,
+  type EndCodeDetail,
   EndCodeError,
+  type EndCodeErrorCode,
   type Outcome,
   PlcError,
   type PlcErrorCode,
   type PlcErrorData,
   ProtocolError,
+  type ProtocolErrorCode,
   plcErrorFrom,
   RequestError,
+  type RequestErrorCode,
   TimeoutError,
+  type TimeoutErrorCode,
   UnfinishedError,
+  type UnfinishedErrorCode,
   VerifyError,
+  type VerifyErrorCode,
   WriteError,
+  type WriteErrorCode,
   type WriteResult,
 } from './errors'
-export type { RequestOf, ResponseOf } from './melsec/commands/command'
+export type { Command, RequestOf, ResponseOf } from './melsec/commands/command'
 export type { CommandName, Commands } from './melsec/commands/commands'
-export type { DeviceAddress, DeviceName } from './melsec/device/device'
+export type { DeviceAddress, DeviceExtension, DeviceName, DeviceUnit, Radix } from './melsec/device/device'
 export type { DeviceForm } from './melsec/device/device-form'
 export type { Notation } from './melsec/device/json'
+export type { LimitUnit } from './melsec/device/limit-rule'
 export {
   type EndCodeExplanation,
   type ExplainOptions,
@@ -91,25 +105,38 @@ export {
   type Language,
   languages,
 } from './melsec/end-codes/end-code'
+export type { EndCodeEntry } from './melsec/end-codes/entry'
+export type { RemedyName } from './melsec/end-codes/remedies'
+export type { Texts } from './melsec/end-codes/texts'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
 export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file/time'
 export { moduleIoNumbers, type Route } from './melsec/frame/route'
-export { modelCodes, modelOf } from './melsec/model-code'
+export { type Model, modelCodes, modelOf, type Series } from './melsec/model-code'
+export { profiles, resolveProfile } from './melsec/profiles/info'
 export {
+  type Connections,
   type Drive,
-  type FileFacts,
+  type FileInfo,
   type FrameName,
-  type Profile,
+  type InFlight,
+  type Lack,
+  type LastIndex,
+  type LimitOverrides,
+  type MonitoringTimer,
   type ProfileId,
+  type ProfileInfo,
   type ProfileOverrides,
   profileIds,
+  type Reach,
+  type RemoteFacts,
+  type StatusRegister,
   type TransportName,
 } from './melsec/profiles/profile'
-export { profiles, resolveProfile } from './melsec/profiles/profiles'
 export type { ExchangeOptions } from './melsec/protocol'
 export { isPortLocked } from './melsec/remote-password'
-export type { Clock } from './transport/clock'
+export type { Clock, TimerOptions } from './transport/clock'
 export type { OpenTransport, Transport, TransportHandlers } from './transport/transport'
+export type { TextName, TypeToValue } from './value/type'
 export {
   bytesOfText,
   type Encoding,

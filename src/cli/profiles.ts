@@ -1,4 +1,4 @@
-import { type Profile, profileIds, profiles, resolveProfile } from '../index'
+import { type ProfileInfo, profileIds, profiles, resolveProfile } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { choiceArgument, jsonOption } from './connection-options'
 import { exitCodes } from './exit-code'
@@ -19,7 +19,7 @@ export const profilesCommand: MakeCommand = (run) =>
       }),
     )
 
-function show(terminal: Terminal, profile: Profile | undefined, asJson: boolean): void {
+function show(terminal: Terminal, profile: ProfileInfo | undefined, asJson: boolean): void {
   if (asJson) terminal.out(json(profile ?? { profiles: Object.values(profiles) }))
   else terminal.out(profile === undefined ? overview() : details(profile))
 }
@@ -37,7 +37,7 @@ function overview(): string {
   return table([['PROFILE', 'FAMILY', 'FRAMES', 'X AND Y', 'FOR'], ...rows])
 }
 
-function details(profile: Profile): string {
+function details(profile: ProfileInfo): string {
   const {
     id,
     title,
@@ -91,7 +91,7 @@ function details(profile: Profile): string {
 }
 
 /** More than one at once takes a serial number, which the 4E frame alone has. */
-function inFlightText({ inFlight, frames }: Profile): string {
+function inFlightText({ inFlight, frames }: ProfileInfo): string {
   const tcp = `${inFlight.tcp} over TCP`
   return frames.includes('4E') ? `${tcp}, ${1 + inFlight.udpBuffer} over UDP with the 4E frame` : `${tcp} and UDP`
 }

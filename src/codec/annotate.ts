@@ -28,7 +28,7 @@ export interface AnnotatedRow {
 }
 
 /** Where reading ended because the bytes are not what the shape says. */
-export interface Fault {
+export interface FrameFault {
   /** Byte that is wrong, or the first that is missing. */
   readonly offset: number
   /** What is wrong, as a sentence without its place. */
@@ -64,7 +64,7 @@ export interface Annotation {
   readonly used: number
   /** What a receiver refuses although it can be read, as sentences. */
   readonly notes: readonly string[]
-  readonly fault?: Fault
+  readonly fault?: FrameFault
 }
 
 /** What stands in place of a secret value, however long it is. */
@@ -90,7 +90,7 @@ export function annotate(shape: Shape, bytes: Buffer, options: AnnotateOptions):
 }
 
 /** Place and reason of a reading error; `base` is where its bytes begin. */
-export function faultOf(error: ProtocolError, base: number): Fault {
+export function faultOf(error: ProtocolError, base: number): FrameFault {
   const { offset = 0, message } = error
   const place = `Received data is wrong at byte ${offset}: `
   const reason = message.startsWith(place) ? message.slice(place.length) : message

@@ -1,5 +1,5 @@
 // A frame in words: what the explainers of every protocol build, and how it is printed.
-import { type AnnotatedRow, type AnnotateOptions, annotate, type Fault, MASK, showBytes } from './annotate'
+import { type AnnotatedRow, type AnnotateOptions, annotate, type FrameFault, MASK, showBytes } from './annotate'
 import type { DataCode } from './data-code'
 import type { Message, Shape } from './field'
 
@@ -23,7 +23,7 @@ export interface FrameExplanation {
   /** Every byte of the frame exactly once, in order; behind a fault what could not be read. */
   readonly rows: readonly AnnotatedRow[]
   /** Where the frame is wrong and why; absent when it is right. */
-  readonly fault?: Fault
+  readonly fault?: FrameFault
   /** What a reader should know besides. */
   readonly notes: readonly string[]
   /** Bytes behind the frame that are not in `rows`. */
@@ -44,7 +44,7 @@ export class Explainer {
   readonly notes: string[] = []
   #bytes: Buffer
   #position = 0
-  #fault: Fault | undefined
+  #fault: FrameFault | undefined
 
   constructor(
     bytes: Buffer,
@@ -63,7 +63,7 @@ export class Explainer {
     return this.#bytes.length - this.#position
   }
 
-  get fault(): Fault | undefined {
+  get fault(): FrameFault | undefined {
     return this.#fault
   }
 
@@ -176,7 +176,7 @@ export function formatExplanation(explanation: FrameExplanation): string {
   return [title, ...lines, ...wrong, ...notes.map((note) => `  Note: ${note}`), ...behind].join('\n')
 }
 
-function placeOf({ offset, name }: Fault): string {
+function placeOf({ offset, name }: FrameFault): string {
   return name === undefined ? `byte ${offset}` : `byte ${offset} (${name})`
 }
 

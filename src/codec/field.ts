@@ -101,6 +101,10 @@ export type Field =
   | ListField
   | EachField
 
+/**
+ * The fields of a request or an answer, in the order they are sent.
+ * @experimental Kinds of fields may be added or changed in any version.
+ */
 export interface Shape {
   readonly [name: string]: Field
 }
@@ -143,10 +147,16 @@ type Flat<T> = { [K in keyof T]: T[K] }
 /** A decoded object, or one to encode, of which only the names of its fields are known. */
 export type Message = Readonly<Record<string, unknown>>
 
-/** The message of a shape as it is decoded: every visible field. */
+/**
+ * The message of a shape as it is decoded: every visible field.
+ * @experimental How it is computed may change in any version.
+ */
 export type MessageOf<S extends Shape> = Flat<{ readonly [K in VisibleKey<S>]: ValueOf<S[K]> }>
 
-/** The message of a shape as it is given for encoding: fields with a default may be left out. */
+/**
+ * The message of a shape as it is given for encoding: fields with a default may be left out.
+ * @experimental How it is computed may change in any version.
+ */
 export type MessageInput<S extends Shape> = Flat<
   { readonly [K in Exclude<VisibleKey<S>, OptionalKey<S>>]: ValueOf<S[K]> } & {
     readonly [K in OptionalKey<S>]?: ValueOf<S[K]>

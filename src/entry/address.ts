@@ -11,9 +11,20 @@ export {
   type RefusedItem,
   tryParseItem,
 } from '../client/item/item'
-export { PlcError, RequestError } from '../errors'
+export { RequestError, type RequestErrorCode } from '../errors'
 export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from '../melsec/device/address'
-export { type DeviceAddress, type DeviceInfo, type DeviceName, deviceInfo, devices } from '../melsec/device/device'
+export {
+  type DeviceAddress,
+  type DeviceExtension,
+  type DeviceInfo,
+  type DeviceName,
+  type DeviceRow,
+  type DeviceUnit,
+  deviceInfo,
+  devices,
+  type ExtensionKind,
+  type TimerPart,
+} from '../melsec/device/device'
 export { type Encoding, encodings, type ValueFormat } from '../value/format'
 export {
   formatType,

@@ -1,15 +1,27 @@
 /// <reference types="node" preserve="true" />
 // The public names of `@melsec-jw/plc/codec`: frames, commands and messages, for those who have bytes. No code.
 
-export type { DataCode, Declaration, Effect, FieldDescription, MessageInput, MessageOf } from '../codec/codec'
+export type { AnnotatedRow, FrameFault } from '../codec/annotate'
+export type {
+  DataCode,
+  Declaration,
+  Effect,
+  FieldDescription,
+  Message,
+  MessageInput,
+  MessageOf,
+  Shape,
+} from '../codec/codec'
 export { describe as describeFields } from '../codec/codec'
-export { explainJwFrame } from '../jw/explain-frame'
+export type { Direction, FrameExplanation } from '../codec/explanation'
+export type { Count } from '../codec/field'
+export { type ExplainJwOptions, explainJwFrame } from '../jw/explain-frame'
 export {
   type ACompatibleCommandName,
   type ACompatibleCommands,
   aCompatibleCommands,
 } from '../melsec/a-compatible/commands'
-export type { RequestOf, ResponseOf } from '../melsec/commands/command'
+export type { Command, RequestOf, ResponseOf } from '../melsec/commands/command'
 export { type CommandDescription, commandNamed, describeCommand } from '../melsec/commands/command-name'
 export { type CommandName, type Commands, commands } from '../melsec/commands/commands'
 export { answerToJson, messageFromJson, messageToJson, type ToJsonOptions } from '../melsec/commands/message-json'
@@ -17,3 +29,4 @@ export { unsolicitedCommands } from '../melsec/commands/on-demand'
 export type { DeviceForm } from '../melsec/device/device-form'
 export type { Notation } from '../melsec/device/json'
 export { explainFrame, formatExplanation } from '../melsec/explain/frame'
+export type { ExplainFrameOptions } from '../melsec/explain/options'

@@ -1,15 +1,23 @@
 // Every way a simulated PLC can misbehave, as one table: the switches, the command line and the documentation read it.
 
-interface NumberParameter {
+/** A parameter that is a whole number. */
+export interface NumberParameter {
+  /** What it is, in English. */
   readonly title: string
+  /** The least it can be. */
   readonly min: number
+  /** The most it can be. */
   readonly max?: number
   /** Without it the parameter must be given. */
   readonly default?: number
 }
-interface ChoiceParameter {
+/** A parameter that is one of some texts. */
+export interface ChoiceParameter {
+  /** What it is, in English. */
   readonly title: string
+  /** What it can be. */
   readonly oneOf: readonly string[]
+  /** What it is when it is left out. */
   readonly default: string
 }
 export type FaultParameter = NumberParameter | ChoiceParameter

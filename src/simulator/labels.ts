@@ -10,6 +10,7 @@ import {
   parseLabel,
 } from '../melsec/label/label'
 import { decodeValue, encodeValue, type PlcValue, parseType, type ValueType } from '../value/value'
+import type { ProgramLabels } from './program'
 import { Refusal, requestErrors } from './refusal'
 
 /** A label: its type as in `parseType` (without BCD and 64-bit integers), or a timer or counter, which has members S, C and N. */
@@ -55,10 +56,7 @@ function bad(name: string, message: string): never {
   throw new RequestError('BAD_OPTION', `labels: ${name}: ${message}`, `labels.${name}`)
 }
 
-/** What a program in the PLC does with labels. */
-export type ProgramLabels = Pick<LabelTable, 'get' | 'set'>
-
-export class LabelTable {
+export class LabelTable implements ProgramLabels {
   readonly #labels = new Map<string, Label>()
 
   /** @throws RequestError BAD_OPTION, BAD_ADDRESS, BAD_TYPE, BAD_VALUE */

@@ -10,6 +10,7 @@ import {
   type FrameName,
   type Profile,
   type ProfileId,
+  type ProfileInfo,
   type ProfileOverrides,
 } from '../melsec/profiles/profile'
 import { resolveProfile } from '../melsec/profiles/profiles'
@@ -31,7 +32,7 @@ export interface PortOptions {
 
 export interface PlcSimulatorOptions {
   /** Default `iq-r`. */
-  readonly profile?: ProfileId | Profile
+  readonly profile?: ProfileId | ProfileInfo
   readonly profileOverrides?: ProfileOverrides
   /** Communication data code of the port. The other one is answered by silence. Default `binary`. */
   readonly code?: DataCode
@@ -94,6 +95,7 @@ export interface PlcSimulatorOptions {
   readonly passwordAttempts?: number
   /** ms for which the port takes no password then. Default 60000. */
   readonly lockOutTime?: number
+  /** Time, for tests. @internal */
   readonly clock?: Clock
 }
 

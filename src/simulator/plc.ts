@@ -12,7 +12,7 @@ import type { Call, Caller, Handler } from './handler'
 import { handlers } from './handlers'
 import { DeviceMemory } from './memory'
 import type { Settings } from './options'
-import { ProgramMemory } from './program-memory'
+import { TypedMemory } from './program-memory'
 import { Refusal } from './refusal'
 import { type Ports, type Received, slmpOf } from './request'
 
@@ -49,7 +49,7 @@ export interface PlcParts extends Pick<Settings, PlcSettings> {
 
 export class Plc {
   readonly profile: Profile
-  readonly memory: ProgramMemory
+  readonly memory: TypedMemory
   readonly cpu: Cpu
   readonly errors = new ErrorLog()
   readonly files: Files
@@ -61,7 +61,7 @@ export class Plc {
     this.#otherStations = parts.otherStations
     this.profile = parts.profile
     this.#devices = new DeviceMemory(parts.profile, parts.latch, parts.extensions)
-    this.memory = new ProgramMemory(this.#devices, parts.profile)
+    this.memory = new TypedMemory(this.#devices, parts.profile)
     this.cpu = new Cpu({
       profile: parts.profile,
       resetAllowed: parts.resetAllowed,

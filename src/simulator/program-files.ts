@@ -5,9 +5,10 @@ import type { Profile } from '../melsec/profiles/profile'
 import { type DrivePath, pathOf } from './drive'
 import type { MountedDrive } from './drives'
 import type { Files, OpenFile } from './files'
+import type { ProgramFiles } from './program'
 
-/** Files of the simulated PLC, for the program that simulates it. Names do not distinguish capital letters. */
-export class ProgramFiles {
+/** Files by drive and name. */
+export class NamedFiles implements ProgramFiles {
   readonly #profile: Profile
   readonly #drives: ReadonlyMap<number, MountedDrive>
   readonly #files: Files
@@ -20,27 +21,16 @@ export class ProgramFiles {
     this.#now = now
   }
 
-  /** Files that clients have open, and so locked. */
   get open(): readonly OpenFile[] {
     return this.#files.open
   }
 
-  /**
-   * Content of a file; undefined when there is none of this name.
-   * @throws RequestError OUT_OF_RANGE no such drive, BAD_VALUE no file name
-   * @example plc.files.read(4, 'LINE.CSV')?.toString()
-   */
   read(drive: number, name: string): Buffer | undefined {
     const { mounted, path } = this.#at(drive, name)
     const found = mounted.drive.find(path)
     return found === undefined || found.directory ? undefined : mounted.drive.read(path, 0, found.size)
   }
 
-  /**
-   * Makes a file, or replaces the one there is, whoever has it open. Text is written in UTF-8.
-   * @throws RequestError OUT_OF_RANGE no such drive or no room, BAD_VALUE no file name or no such directory
-   * @example plc.files.write(4, 'LINE.CSV', 'Product,Minutes\r\nA,15\r\n')
-   */
   write(drive: number, name: string, data: string | Uint8Array): void {
     const { mounted, path } = this.#at(drive, name)
     const bytes = Buffer.from(data)

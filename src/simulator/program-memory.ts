@@ -16,6 +16,7 @@ import {
   wordsOf,
 } from '../value/value'
 import type { DeviceMemory } from './memory'
+import type { ProgramMemory } from './program'
 import { Refusal } from './refusal'
 
 /** What lies at an address: a value of a type in one or more devices. */
@@ -23,11 +24,8 @@ interface Target extends ParsedDevice {
   readonly type: ValueType
 }
 
-/**
- * Device memory as a program in the PLC sees it: nothing is sent, no limit but the ranges of the profile applies.
- * Every method throws RequestError: BAD_ADDRESS, BAD_TYPE, BAD_VALUE, or OUT_OF_RANGE for a device that is not there.
- */
-export class ProgramMemory {
+/** Device memory by address and type. */
+export class TypedMemory implements ProgramMemory {
   readonly #memory: DeviceMemory
   readonly #profile: Profile
   readonly #parsed = new Map<string, Target>()
@@ -37,7 +35,6 @@ export class ProgramMemory {
     this.#profile = profile
   }
 
-  /** The word of a word device, 0..65535, or of 16 bit devices. */
   word(device: DeviceName, number: number): number {
     return this.#inRange(() => this.#memory.readWords({ device, number }, 1)[0] ?? 0)
   }
@@ -58,10 +55,6 @@ export class ProgramMemory {
     this.#inRange(() => this.#memory.writeBits(address, [value]))
   }
 
-  /**
-   * The value at an address. Without a type: BOOL of a bit device or a bit of a word, DINT of a double-word device, INT.
-   * @example memory.get('D100', 'REAL'); memory.get('M0'); memory.get('D100.F'); memory.get('K4M0')
-   */
   get<T extends string>(address: string, type: T, format?: ValueFormat): ValueOf<T>
   get(address: string, type?: string, format?: ValueFormat): PlcValue
   get(address: string, type?: string, format?: ValueFormat): PlcValue {
@@ -69,51 +62,33 @@ export class ProgramMemory {
     return this.#inRange(() => this.#read(target, format))
   }
 
-  /** Writes the value; all of it or, when it is refused, nothing. */
   set(address: string, type: string, value: PlcValue, format?: ValueFormat): void {
     const target = this.#target(address, type)
     this.#inRange(() => this.#write(target, value, format))
   }
 
-  /**
-   * As `get`, with the type in the text.
-   * @example memory.read('D100:REAL')
-   */
   read(item: string, format?: ValueFormat): PlcValue {
     const [address, type] = split(item)
     return this.get(address, type, format)
   }
 
-  /**
-   * As `set`, with the type in the text.
-   * @example memory.write('D100:REAL', 1.5)
-   */
   write(item: string, value: PlcValue, format?: ValueFormat): void {
     const [address, type] = split(item)
     const target = this.#target(address, type)
     this.#inRange(() => this.#write(target, value, format))
   }
 
-  /**
-   * The address of a word device, as the instruction ADRSET gives it, for indirect specification: `@D0` reaches what
-   * the address in D0 and D1 says. 32 bits without a meaning of their own, valid in this simulated PLC only.
-   */
   addressOf(source: string): number {
     const { address } = this.#wordDevice(source)
     return this.#inRange(() => this.#memory.addressOf(address))
   }
 
-  /**
-   * The instruction ADRSET: stores the address of `source` in two words, low word first.
-   * @example memory.adrset('D100', 'D0') // a client's @D0 is D100 from now on
-   */
   adrset(source: string, destination: string): void {
     const stored = this.addressOf(source)
     const { address } = this.#wordDevice(destination)
     this.#inRange(() => this.#memory.writeDoubleWord(address, stored))
   }
 
-  /** Sets devices to 0: those that are not latched, or all but the special relays and registers. */
   clear(scope: 'unlatched' | 'all' = 'all'): void {
     this.#memory.clear(scope)
   }

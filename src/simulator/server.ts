@@ -2,12 +2,12 @@
 import { ClosedError } from '../errors'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'
-import type { Profile } from '../melsec/profiles/profile'
+import type { Profile, ProfileInfo } from '../melsec/profiles/profile'
 import { SlmpCommandSet } from '../melsec/protocol'
 import type { Clock } from '../transport/clock'
 import { listenTcp } from '../transport/listen-tcp'
 import { listenUdp } from '../transport/listen-udp'
-import { listenMemory, type MemoryListener, type MemoryOptions } from '../transport/memory'
+import { listenMemory, type MemoryListener } from '../transport/memory'
 import type { Listener, OpenTransport, ServerConnection } from '../transport/transport'
 import type { PlcValue, ValueFormat } from '../value/value'
 import { ACompatiblePort } from './a-compatible-port'
@@ -17,13 +17,19 @@ import type { ErrorLog } from './error-log'
 import { Emitter } from './events'
 import { type FaultSubject, Faults } from './faults'
 import { fileClock } from './file-clock'
-import type { ProgramLabels } from './labels'
 import { chosen, type OnDemandData, type OnDemandOptions, onDemandBytes } from './on-demand'
 import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
 import { Plc } from './plc'
 import { PortPassword } from './port-lock'
-import { ProgramFiles } from './program-files'
-import type { ProgramMemory } from './program-memory'
+import type {
+  FaultSwitches,
+  ProgramFiles,
+  ProgramLabels,
+  ProgramMemory,
+  SimulatedCpu,
+  SimulatedErrors,
+} from './program'
+import { NamedFiles } from './program-files'
 import { newCounters, type SimulatorStatistics } from './statistics'
 
 export type { OnDemandData, OnDemandOptions } from './on-demand'
@@ -67,7 +73,11 @@ export interface SimulatorEvents {
   close: { readonly time: number }
 }
 
-export interface ConnectOptions extends Pick<MemoryOptions, 'kind' | 'chunking'> {
+export interface ConnectOptions {
+  /** As TCP (`stream`, default) or as UDP. */
+  readonly kind?: 'stream' | 'datagram'
+  /** How bytes of a stream are cut and joined on their way, both directions; as they are sent, by default. */
+  readonly chunking?: (pending: readonly Buffer[], to: 'client' | 'server') => readonly Buffer[]
   /** As sockets (default), or before `send` returns. */
   readonly delivery?: 'microtask' | 'synchronous'
   /** Who this is in remote control. Default: every call of `connect()` is another device. */
@@ -75,7 +85,8 @@ export interface ConnectOptions extends Pick<MemoryOptions, 'kind' | 'chunking'>
 }
 
 export interface PlcSimulator {
-  readonly profile: Profile
+  /** The family it is of. */
+  readonly profile: ProfileInfo
   readonly clock: Clock
   /** Device memory as a program in the PLC sees it. */
   readonly memory: ProgramMemory
@@ -84,10 +95,11 @@ export interface PlcSimulator {
   /** Files as a program in the PLC sees them. */
   readonly files: ProgramFiles
   /** State, switch, and who holds it remotely. */
-  readonly cpu: Cpu
-  readonly faults: Faults
+  readonly cpu: SimulatedCpu
+  /** What it does wrong on purpose. */
+  readonly faults: FaultSwitches
   /** The error LED of the port and what lit it. */
-  readonly errors: ErrorLog
+  readonly errors: SimulatedErrors
   /** Where TCP listens; undefined before `listen()`, after `close()`, and without TCP. */
   readonly tcp: Endpoint | undefined
   /** Where UDP listens. */
@@ -180,7 +192,7 @@ class Simulator implements PlcSimulator {
     })
     this.memory = this.#plc.memory
     this.labels = labels
-    this.files = new ProgramFiles(profile, settings.drives, this.#plc.files, now)
+    this.files = new NamedFiles(profile, settings.drives, this.#plc.files, now)
     this.cpu = this.#plc.cpu
     this.errors = this.#plc.errors
     this.#shared = this.#share()

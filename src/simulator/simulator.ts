@@ -1,11 +1,18 @@
 // The public names of this room.
 export type { RequestEvent } from './connection'
-export type { Cpu, CpuState, Hold, StateChange, SwitchPosition } from './cpu'
-export type { ErrorLog, LoggedError } from './error-log'
-export { type FaultKind, type FaultParameter, faultKinds } from './fault-kinds'
-export type { ActiveFault, Fault, FaultAim, FaultSubject, Faults } from './faults'
+export type { CpuState, Hold, StateChange, SwitchPosition } from './cpu'
+export type { LoggedError } from './error-log'
+export type { FaultAction } from './fault-kinds'
+export {
+  type ChoiceParameter,
+  type FaultKind,
+  type FaultParameter,
+  faultKinds,
+  type NumberParameter,
+} from './fault-kinds'
+export type { ActiveFault, Fault, FaultAim, FaultSubject } from './faults'
 export type { OpenFile } from './files'
-export type { ProgramLabels, SimulatedLabel, SimulatedLabels } from './labels'
+export type { SimulatedLabel, SimulatedLabels } from './labels'
 export type { ExtensionMemory } from './memory'
 export type { PlcSimulatorOptions, PortOptions } from './options'
 export {
@@ -18,8 +25,14 @@ export {
   plantVariantOf,
   startDemoPlant,
 } from './plant'
-export type { ProgramFiles } from './program-files'
-export type { ProgramMemory } from './program-memory'
+export type {
+  FaultSwitches,
+  ProgramFiles,
+  ProgramLabels,
+  ProgramMemory,
+  SimulatedCpu,
+  SimulatedErrors,
+} from './program'
 export {
   type ConnectionInfo,
   type ConnectOptions,

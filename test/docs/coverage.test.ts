@@ -25,13 +25,16 @@ function namesIn(page: string, mark: string): string[] {
   return tableAfter(page, mark).map(([cell]) => codeOf(cell) ?? '')
 }
 
-/** Names of the members of an interface. */
+/** Names of the members of an interface that are for users. */
 function membersOf(path: string, name: string): string[] {
+  const internal = [...readText(path).matchAll(/@internal \*\/\n +(?:readonly )?(\w+)/g)].map(([, member]) => member)
   const found = [...nodesOf(parseTypeScript(readText(path)))].find(
     (node) => node.type === 'TsInterfaceDeclaration' && textOf(node.id) === name,
   )
   const body = isNode(found?.body) ? found.body.body : []
-  return (Array.isArray(body) ? body : []).flatMap((member: SyntaxNode) => textOf(member.key) ?? [])
+  return (Array.isArray(body) ? body : [])
+    .flatMap((member: SyntaxNode) => textOf(member.key) ?? [])
+    .filter((member) => !internal.includes(member))
 }
 
 /** The texts of a union of texts. */

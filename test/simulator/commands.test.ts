@@ -4,7 +4,7 @@ import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { frameFacts } from '../../src/melsec/frame/frames'
 import { modelOf } from '../../src/melsec/model-code'
 import { type FrameName, lackOf, type Profile, profileIds } from '../../src/melsec/profiles/profile'
-import { profiles } from '../../src/melsec/profiles/profiles'
+import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
 import { passwordProblem } from '../../src/melsec/remote-password'
 import type { SimulatedLabels } from '../../src/simulator/labels'
 import { fileRefusals, fileScenarios } from './file-scenarios'
@@ -177,10 +177,10 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
   },
   unlock({ plc, asker }) {
     // A port without a password is never locked, and nobody looks at the one that is sent.
-    expect(asker.ask(commands.unlock, { password: anyPassword(plc.profile) })).toEqual({})
+    expect(asker.ask(commands.unlock, { password: anyPassword(resolveProfile(plc.profile)) })).toEqual({})
   },
   lock({ plc, asker }) {
-    expect(asker.ask(commands.lock, { password: anyPassword(plc.profile) })).toEqual({})
+    expect(asker.ask(commands.lock, { password: anyPassword(resolveProfile(plc.profile)) })).toEqual({})
     expect(asker.endCode(commands.readWords, { head: D10, points: 1 })).toBe(0)
   },
   readMemory({ asker }) {
@@ -194,7 +194,7 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
     expect(asker.ask(commands.readMemory, { address: 14, points: 2 })).toEqual({ values: [3, 4] })
   },
   readExtendUnit({ plc, asker }) {
-    if (hasNoModules(plc.profile)) {
+    if (hasNoModules(resolveProfile(plc.profile))) {
       expect(asker.endCode(commands.readExtendUnit, { address: 0x100a, byteCount: 4, moduleNumber: 3 })).not.toBe(0)
       return
     }
@@ -220,7 +220,7 @@ const scenarios: { readonly [N in CommandName]: (joined: Joined) => void } = {
   },
   writeExtendUnit({ plc, asker }) {
     const written = { address: 0x100a, moduleNumber: 3, data: Buffer.of(0x34, 0x12) }
-    if (hasNoModules(plc.profile)) {
+    if (hasNoModules(resolveProfile(plc.profile))) {
       expect(asker.endCode(commands.writeExtendUnit, written)).not.toBe(0)
       return
     }

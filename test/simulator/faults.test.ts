@@ -168,7 +168,7 @@ describe.each(PROTOCOLS)('over %s', (protocol) => {
       const expected = Buffer.concat([word(0), no, no, done(), word(2)])
       for (const bytesOut of sent) transport.send(bytesOut)
       expect(await bytes(expected.length)).toEqual(expected)
-      expect([fault.struck, plc.faults.none]).toEqual([2, true])
+      expect([fault.struck, plc.faults.active]).toEqual([2, []])
     }))
 
   test('short error information: what is left of it, with a length that says so', () =>
@@ -359,7 +359,7 @@ describe('switches', () => {
       const add = () => plc.faults.add(fault as Fault)
       expect(add).toThrow(expect.objectContaining({ code: 'BAD_OPTION', field }))
       expect(add).toThrow(RequestError)
-      expect(plc.faults.none).toBe(true)
+      expect(plc.faults.active).toEqual([])
     }),
   )
 

@@ -4,6 +4,7 @@ import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/m
 import { PlcError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import type { ProfileId } from '../../src/melsec/profiles/profile'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { createPlcSimulator, type PlcSimulator } from '../../src/simulator/server'
 
 const ended: (() => Promise<void>)[] = []
@@ -94,7 +95,7 @@ describe.each(['iq-r', 'q', 'iq-f'] as const)('%s', (profile) => {
 
     test('the last device is the end: no double word behind it', async () => {
       const { plc, client } = await pair(profile, code)
-      const last = plc.profile.ranges.points.D ?? 0
+      const last = resolveProfile(plc.profile).ranges.points.D ?? 0
       plc.adrset(`D${last - 1}`, 'D0')
       expect(await client.read('@D0')).toBe(0)
       expect(await rejection(client.read('@D0:DINT'))).toMatchObject({ code: 'END_CODE', outcome: 'refused' })

@@ -3,7 +3,7 @@ import { RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { type DeviceName, deviceInfo, devices } from '../../src/melsec/device/device'
 import { type Profile, profileIds } from '../../src/melsec/profiles/profile'
-import { profiles } from '../../src/melsec/profiles/profiles'
+import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
 import { createPlcSimulator } from '../../src/simulator/server'
 import { join, rawBody } from './support'
 
@@ -96,7 +96,7 @@ describe('device memory', () => {
 
   test('the last long timer can be read, one more cannot', () => {
     const { plc, asker } = join()
-    const last = pointsOf(plc.profile, 'LTN') - 1
+    const last = pointsOf(resolveProfile(plc.profile), 'LTN') - 1
     const endCode = (points: number) =>
       asker.endCode(commands.readWords, { head: { device: 'LTN', number: last }, points })
     expect([endCode(4), endCode(8)]).toEqual([0, 0x4031])

@@ -2,6 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { createPlcSimulator, type OnDemandData, type PlcSimulator } from '../../src/entry/simulator'
 import { ClosedError, createMelsecClient, type MelsecClient, type OnDemand, RequestError } from '../../src/index'
+import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { nextState, until, withLine } from '../client/line'
 import { hex, ON_DEMAND_DATA, ON_DEMAND_WORDS, onDemandFrames, text } from '../melsec/on-demand-frames'
 import { bench, readD, word } from './wire'
@@ -263,7 +264,7 @@ test('a client that sends it to the PLC is refused: there it is no command', asy
     client.transport.send(hex('5000 00 ff ff03 00 0800 1000 0121 0000 0100'))
     const answer = await client.bytes(11)
     expect(answer.subarray(0, 2).toString('hex')).toBe('d000')
-    expect(answer.readUInt16LE(9)).toBe(joined.plc.profile.refusals.command)
+    expect(answer.readUInt16LE(9)).toBe(resolveProfile(joined.plc.profile).refusals.command)
   } finally {
     await joined.close()
   }

@@ -11,7 +11,7 @@ import { completeRoute, type Route } from '../../src/melsec/frame/route'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { anyFiles } from '../../src/melsec/profiles/files'
 import type { FrameName, Profile } from '../../src/melsec/profiles/profile'
-import { profiles } from '../../src/melsec/profiles/profiles'
+import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
 import { type ExchangeOptions, MelsecProtocol } from '../../src/melsec/protocol'
 import {
   type ConnectOptions,
@@ -67,7 +67,7 @@ export class Asker {
     this.protocol = new MelsecProtocol({
       framing,
       head: this.#head,
-      profile: lenient(plc.profile),
+      profile: lenient(resolveProfile(plc.profile)),
       code,
       asciiXy: plc.profile.xyRadix === 8 ? 'octal' : undefined,
       asciiZr: 'decimal',

@@ -4,31 +4,27 @@ import type { PlcError } from '../../errors'
 
 export type ConnectionStateName = 'idle' | 'connecting' | 'connected' | 'waiting' | 'closed'
 
-/** Nothing has gone wrong. */
-interface Untroubled<Name extends ConnectionStateName> {
-  readonly name: Name
-  readonly error?: undefined
-  readonly nextAttempt?: undefined
-}
-
-/** What came before may have gone wrong. */
-interface Between<Name extends ConnectionStateName> {
-  readonly name: Name
-  /** Why there is no connection; absent when none has failed since the last one that worked. */
-  readonly error?: PlcError
-  readonly nextAttempt?: undefined
-}
-
-interface Waiting {
-  readonly name: 'waiting'
-  /** Why there is no connection. */
-  readonly error: PlcError
-  /** When the next attempt starts; absent while it waits for a correction by the user. */
-  readonly nextAttempt?: number
-}
-
 /** Where a connection stands: the name says what else there is. */
-export type Phase = Untroubled<'idle'> | Between<'connecting'> | Untroubled<'connected'> | Waiting | Between<'closed'>
+export type Phase =
+  | {
+      /** Nothing has gone wrong. */
+      readonly name: 'idle' | 'connected'
+      readonly error?: undefined
+      readonly nextAttempt?: undefined
+    }
+  | {
+      readonly name: 'connecting' | 'closed'
+      /** Why there is no connection; absent when none has failed since the last one that worked. */
+      readonly error?: PlcError
+      readonly nextAttempt?: undefined
+    }
+  | {
+      readonly name: 'waiting'
+      /** Why there is no connection. */
+      readonly error: PlcError
+      /** When the next attempt starts; absent while it waits for a correction by the user. */
+      readonly nextAttempt?: number
+    }
 
 export interface SupervisorOptions {
   /** First pause after a failed attempt, ms. Doubled each time, up to `longest`, with jitter. */

@@ -93,7 +93,7 @@ function isAbout(error: PlcError, item: string): boolean {
 }
 
 /** The result of an item that may have failed. */
-interface ItemResult {
+export interface ItemResult {
   readonly item: string
   readonly ok: boolean
   readonly error?: PlcError

@@ -7,7 +7,7 @@ import type { Command, RequestOf, ResponseOf } from '../../melsec/commands/comma
 import { commands } from '../../melsec/commands/commands'
 import type { Notation } from '../../melsec/device/json'
 import { extendUnitOf, type ModulePlace } from '../../melsec/extend-unit'
-import type { Profile } from '../../melsec/profiles/profile'
+import type { ProfileInfo } from '../../melsec/profiles/profile'
 import type { ExchangeOptions } from '../../melsec/protocol'
 import { isPasswordRefusal, isPortLocked } from '../../melsec/remote-password'
 import { type CallOptions, callOptionsOf } from '../connection/call'
@@ -161,7 +161,7 @@ export class MelsecClient {
   }
 
   /** The family of PLCs it speaks to, with the overrides merged in. */
-  get profile(): Profile {
+  get profile(): ProfileInfo {
     return this.#settings.profile
   }
 
@@ -454,7 +454,7 @@ export class MelsecClient {
 
   /** Who the PLC says it is, with what its model code means. */
   identify(options?: CallOptions): Promise<Identity> {
-    return identify(this.#send, this.profile, this.#settings.wRadix, options)
+    return identify(this.#send, this.#settings.profile, this.#settings.wRadix, options)
   }
 
   /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns ms from sending to the answer. */

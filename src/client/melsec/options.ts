@@ -11,8 +11,8 @@ import {
   inFlightBound,
   type Profile,
   type ProfileId,
+  type ProfileInfo,
   type ProfileOverrides,
-  profileIds,
   type TransportName,
 } from '../../melsec/profiles/profile'
 import { resolveProfile } from '../../melsec/profiles/profiles'
@@ -34,7 +34,7 @@ export interface MelsecClientOptions {
   /** Local port; default: any free one. */
   readonly localPort?: number
   /** Family of the PLC; default `generic`. It decides numbering, limits, forms and what is refused. */
-  readonly profile?: ProfileId | Profile
+  readonly profile?: ProfileId | ProfileInfo
   /** Own values for fields of the profile. */
   readonly profileOverrides?: ProfileOverrides
   /** Default: the profile's. */
@@ -93,8 +93,9 @@ export interface MelsecClientOptions {
   readonly settleGap?: number
   /** Makes the transport instead of `transport`, `host` and `port`: for tests and the in-process simulator. */
   readonly openTransport?: OpenTransport
+  /** Time, for tests. @internal */
   readonly clock?: Clock
-  /** 0 to below 1, for the jitter. */
+  /** 0 to below 1, for the jitter: for tests. @internal */
   readonly random?: () => number
 }
 
@@ -222,7 +223,7 @@ export function settle(options: MelsecClientOptions): Settings {
 
 /** Of a PLC nobody knows the notation is the user's word for what it is, as if it stood in a profile. */
 function profileOf({ profile: given, profileOverrides, xyRadix }: MelsecClientOptions): Profile {
-  const profile = resolveProfile(profileGiven(given ?? 'generic'))
+  const profile = resolveProfile(given ?? 'generic')
   const isSaid = !profile.xyRadixKnown && (xyRadix === 8 || xyRadix === 16)
   return resolveProfile(profile, isSaid ? { ...profileOverrides, xyRadix } : (profileOverrides ?? undefined))
 }
@@ -244,11 +245,6 @@ function checkObject(field: string, given: object | undefined): void {
 function checkFunction(field: string, given: unknown): void {
   if (given === undefined || typeof given === 'function') return
   throw new RequestError('BAD_OPTION', `${field} is ${shown(given)}; it must be a function.`, field)
-}
-
-function profileGiven(given: ProfileId | Profile): ProfileId | Profile {
-  if (typeof given === 'string' || (typeof given === 'object' && profileIds.includes(given.id))) return given
-  throw new RequestError('BAD_OPTION', `profile is one of ${profileIds.join(', ')}, or a profile's data.`, 'profile')
 }
 
 function checkPeer({ host, port }: MelsecClientOptions): void {

@@ -18,6 +18,7 @@ const loopbackData = {
 /**
  * Commands of the 1E frame. The code is the frame's subheader. What one request carries depends on the device too:
  * see a-compatible-rules.ts. Points are one byte: 256 is written as 00.
+ * @experimental The shapes of the declarations may change in any version; the names of commands and what their messages hold do not.
  */
 export const aCompatibleCommands = declare({
   readBits: {
@@ -110,5 +111,10 @@ export const aCompatibleCommands = declare({
   },
 })
 
+/**
+ * The declared commands of the 1E frame by their names.
+ * @experimental The shapes of the declarations may change in any version; the names of commands and what their messages hold do not.
+ */
 export type ACompatibleCommands = typeof aCompatibleCommands
+/** Name of a command of the 1E frame, e.g. `batchReadWords`. */
 export type ACompatibleCommandName = keyof ACompatibleCommands

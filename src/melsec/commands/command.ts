@@ -12,6 +12,10 @@ export interface MelsecDeclaration extends Declaration {
   readonly controlCpuOnly?: true
 }
 
+/**
+ * A declared command, one of `commands`.
+ * @experimental Its shape may change in any version; its name and what its messages hold do not.
+ */
 export type Command<D extends MelsecDeclaration = MelsecDeclaration, N extends string = string> = Named<D, N>
 
 /** What a request of the command is given as. */

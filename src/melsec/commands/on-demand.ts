@@ -55,6 +55,7 @@ export function bytesOfWords(words: readonly number[]): Buffer {
 /**
  * What a PLC sends of its own accord, in the form of a request. Nobody answers it. It is no request of a client, so it is
  * not in `commands`, which lists what can be asked.
+ * @experimental The shapes of the declarations may change in any version; the names of commands and what their messages hold do not.
  */
 export const unsolicitedCommands = declare({
   onDemand: {

@@ -29,10 +29,13 @@ export type TimerPart = 'contact' | 'coil' | 'current value'
 /** Where a device lives: `link` = also in a network module (`J1\W10`), `module`/`cpu` = only behind `U3\` or `U3E0\`. */
 export type ExtensionKind = 'link' | 'module' | 'cpu'
 
-interface DeviceRow {
+/** What is known of a device. */
+export interface DeviceRow {
+  /** As GX Works writes it, e.g. `D`, `STN`. */
   readonly name: string
   /** The manual's term, e.g. `data register`. */
   readonly title: string
+  /** What one device is. */
   readonly unit: DeviceUnit
   /** Of the number in GX Works' notation. Of X and Y see `octal`. */
   readonly radix: 10 | 16
@@ -42,22 +45,23 @@ interface DeviceRow {
   readonly code: number
   /** ASCII device code of the short form as sent; missing where no manual gives a short form. */
   readonly text2?: string
-  /** The SLMP manual allows only the long form (subcommands 0002, 0003, 0082, 0083). */
+  /** The SLMP manual allows only the long form (subcommands 0002, 0003, 0082, 0083). @internal */
   readonly longOnly?: true
   /** Timer or counter this device is a part of, e.g. `T`. */
   readonly group?: string
+  /** What it shows of the timer or counter. */
   readonly part?: TimerPart
   /** May stand behind an extension of these kinds. */
   readonly extensions?: readonly ExtensionKind[]
   /** Exists only behind an extension. */
   readonly extensionOnly?: true
-  /** Commands that cannot address it. */
+  /** Commands that cannot address it. @internal */
   readonly notIn?: readonly DeviceCommand[]
-  /** Read Block and Write Block take it in a bit block only. */
+  /** Read Block and Write Block take it in a bit block only. @internal */
   readonly bitBlocksOnly?: true
-  /** Words of one device in `readWords` and `writeWords`, when that is not 1 (or 16 bit devices to 1). */
+  /** Words of one device in `readWords` and `writeWords`, when that is not 1 (or 16 bit devices to 1). @internal */
   readonly wordsPerDevice?: 2 | 4
-  /** Commands in which the points must be a multiple of `wordsPerDevice`. */
+  /** Commands in which the points must be a multiple of `wordsPerDevice`. @internal */
   readonly wholeDevices?: readonly DeviceCommand[]
   /** What an implementer must know: errata and differences between manuals. */
   readonly note?: string
@@ -189,6 +193,7 @@ export type DeviceName = (typeof ROWS)[number]['name']
 
 /** One row of the device table. */
 export interface DeviceInfo extends DeviceRow {
+  /** As GX Works writes it. */
   readonly name: DeviceName
   /** ASCII device code of the long form as sent, e.g. `D***`. */
   readonly text4: string

@@ -1,7 +1,7 @@
 // A 4C frame in format 5 in words: the same data as in 3E, in an envelope of control codes with doubled DLEs.
 
 import { hex } from '../../basics/hex'
-import { type AnnotatedRow, type Fault, showBytes } from '../../codec/annotate'
+import { type AnnotatedRow, type FrameFault, showBytes } from '../../codec/annotate'
 import { field, type Shape, sumOf } from '../../codec/codec'
 import { type Direction, Explainer, type FrameExplanation } from '../../codec/explanation'
 import { frame4cFormat5 } from '../frame/frame-4c'
@@ -38,7 +38,7 @@ interface Content {
   readonly at: readonly number[]
   /** Behind DLE ETX; without it the frame is cut short or broken. */
   readonly end: number | undefined
-  readonly fault?: Fault
+  readonly fault?: FrameFault
 }
 
 export function explain4c(bytes: Buffer, settings: Settings, options: ExplainFrameOptions): FrameExplanation {
@@ -115,7 +115,7 @@ function closingRows(
   bytes: Buffer,
   plain: Buffer,
   end: number,
-): { rows: readonly AnnotatedRow[]; end: number; fault?: Fault } {
+): { rows: readonly AnnotatedRow[]; end: number; fault?: FrameFault } {
   const rows = rowOf(end - 2, bytes.subarray(end - 2, end), 'end', 'DLE ETX')
   const sum = bytes.subarray(end, end + 2)
   // A parameter of the port says whether there is a sum; two characters behind the frame are one.

@@ -23,7 +23,7 @@ import { explain4c } from './frame-4c'
 import { describeHead, endCodeText } from './head'
 import type { ExplainFrameOptions, Known } from './options'
 
-export type { AnnotatedRow, Fault } from '../../codec/annotate'
+export type { AnnotatedRow, FrameFault } from '../../codec/annotate'
 export { type Direction, type FrameExplanation, formatExplanation } from '../../codec/explanation'
 
 /**

@@ -3,7 +3,7 @@ import type { DataCode } from '../../codec/codec'
 import type { Direction } from '../../codec/explanation'
 import type { Command } from '../commands/command'
 import type { FrameName } from '../frame/frames'
-import type { Profile, ProfileId } from '../profiles/profile'
+import type { ProfileId, ProfileInfo } from '../profiles/profile'
 import type { Settings } from './body'
 
 /** What is known of the frame; what is left out is found out as far as the bytes tell it. */
@@ -13,7 +13,7 @@ export interface ExplainFrameOptions {
   readonly code?: DataCode
   readonly direction?: Direction
   /** Family of the PLC; default `generic`. */
-  readonly profile?: ProfileId | Profile
+  readonly profile?: ProfileId | ProfileInfo
   /** How X and Y are written; default: the profile's. */
   readonly xyRadix?: 8 | 16
   /** How W is written; default: the profile's. */

@@ -215,9 +215,10 @@ export interface FileRefusals {
 }
 
 /** Files and how they are asked for. Without subcommands and drives on a family that has no file commands. */
-export interface FileFacts {
+export interface FileInfo {
   /** Subcommands of the file commands, the usual one first: 0000, 0004, or 0040 with long names and directories. */
   readonly subcommands: readonly number[]
+  /** Drives with files. */
   readonly drives: readonly Drive[]
   /** Module I/O numbers that file commands may name; none: whatever the others may. */
   readonly moduleIo: readonly number[]
@@ -225,8 +226,12 @@ export interface FileFacts {
   readonly doubtfulModuleIo: readonly number[]
   /** Parameter files, and programs that run, are changed in STOP only. */
   readonly stopToChange: boolean
-  readonly refusals: FileRefusals
+  /** Where it is written. */
   readonly source: string
+}
+
+export interface FileFacts extends FileInfo {
+  readonly refusals: FileRefusals
 }
 
 export interface Subcommand {
@@ -234,9 +239,11 @@ export interface Subcommand {
   readonly source: string
 }
 
-/** Everything the rest of the package knows about a family of PLCs. Plain data. */
-export interface Profile {
+/** What a family of PLCs is like, for people and programs. Plain data; of each figure `source` says where it is from. */
+export interface ProfileInfo {
+  /** The name options take, e.g. `iq-f`. */
   readonly id: ProfileId
+  /** The name of the family, e.g. `MELSEC iQ-F`. */
   readonly title: string
   /** CPUs and modules it stands for. */
   readonly series: string
@@ -250,13 +257,42 @@ export interface Profile {
   readonly wRadix: 10 | 16
   /** Digits of X and Y in ASCII code: as the port is set ("ASCII (X,Y OCT)", "(X,Y HEX)"), or always hexadecimal. */
   readonly asciiXy: 'setting' | 'hexadecimal'
+  /** Frames it takes, the usual one first. */
   readonly frames: readonly FrameName[]
   /** Default frame. */
   readonly frame: FrameName
+  /** Data codes it takes. */
   readonly codes: readonly DataCode[]
   /** Default data code. */
   readonly code: DataCode
+  /** Transports its port has. */
   readonly transports: readonly TransportName[]
+  /** Device names this family does not have. */
+  readonly absentDevices: readonly DeviceName[]
+  /** Commands it does not have: refused before anything is sent. */
+  readonly lacks: readonly Lack[]
+  /** Not on every CPU or module of the family: sent when asked for, never chosen by the planner. */
+  readonly doubtful: readonly Lack[]
+  /** Requests it can take before it has answered. */
+  readonly inFlight: InFlight
+  /** Connections its port has at the same time. */
+  readonly connections: Connections
+  /** Where requests can go from the port. */
+  readonly reach: Reach
+  /** Index registers that can modify an address. */
+  readonly lastIndex: LastIndex
+  /** What it takes as monitoring timer. */
+  readonly monitoringTimer: MonitoringTimer
+  /** Remote control. */
+  readonly remote: RemoteFacts
+  /** Files and drives. */
+  readonly files: FileInfo
+  /** What people should know about ports, settings and oddities. */
+  readonly notes: readonly string[]
+}
+
+/** Everything the rest of the package knows about a family of PLCs. Plain data. */
+export interface Profile extends ProfileInfo {
   readonly forms: readonly DeviceForm[]
   /** Default form; a device without a short code takes the first form of `forms` that has it. */
   readonly form: 'short' | 'long'
@@ -264,11 +300,6 @@ export interface Profile {
   readonly shortDevices: readonly DeviceName[]
   /** Extensions of an address this family takes: `J1\\W10`, `U3\\G100`, `U3E0\\HG0`. */
   readonly extensions: readonly ExtensionKind[]
-  /** Device names this family does not have. */
-  readonly absentDevices: readonly DeviceName[]
-  readonly lacks: readonly Lack[]
-  /** Not on every CPU or module of the family: sent when asked for, never chosen by the planner. */
-  readonly doubtful: readonly Lack[]
   readonly exclusions: readonly DeviceExclusion[]
   /** What the port of this family does not take in 1E frames, beside what no 1E frame says. */
   readonly exclusions1e?: readonly DeviceExclusion[]
@@ -279,17 +310,9 @@ export interface Profile {
   readonly refusals: Refusals
   readonly password: PasswordFacts
   readonly model: UsualModel
-  readonly inFlight: InFlight
-  readonly connections: Connections
-  readonly reach: Reach
-  readonly lastIndex: LastIndex
-  readonly monitoringTimer: MonitoringTimer
   /** Subcommands other than the computed ones. */
   readonly subcommands: Readonly<Partial<Record<CommandName, Subcommand>>>
-  readonly remote: RemoteFacts
   readonly files: FileFacts
-  /** What people should know about ports, settings and oddities. */
-  readonly notes: readonly string[]
   /** Where the single figures above come from. */
   readonly sources: Readonly<
     Record<'xyRadix' | 'wRadix' | 'asciiXy' | 'frames' | 'forms' | 'extensions' | 'absentDevices', string>

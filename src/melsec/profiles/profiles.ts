@@ -8,7 +8,7 @@ import { iqR } from './iq-r'
 import { l } from './l'
 import { nz2gfEtb } from './nz2gf-etb'
 import { withOverrides } from './override'
-import { type Profile, type ProfileId, type ProfileOverrides, profileIds } from './profile'
+import { type Profile, type ProfileId, type ProfileInfo, type ProfileOverrides, profileIds } from './profile'
 import { q } from './q'
 import { qBuiltIn, qE71 } from './q-ports'
 import { remoteHead } from './remote-head'
@@ -41,13 +41,30 @@ function profileOf(id: string): Profile {
   )
 }
 
+/** Users have a part of it only in its type: what they hand back is all of it. */
+function isWhole(profile: ProfileInfo): profile is Profile {
+  return (
+    typeof profile === 'object' &&
+    profile !== null &&
+    isProfileId(profile.id) &&
+    'limits' in profile &&
+    'refusals' in profile
+  )
+}
+
+function wholeOf(profile: ProfileInfo): Profile {
+  if (isWhole(profile)) return profile
+  const message = `profile is one of ${profileIds.join(', ')}, or what resolveProfile() gives.`
+  throw new RequestError('BAD_OPTION', message, 'profile')
+}
+
 /**
  * The profile with an id, or the one given, with the user's own values merged in field by field.
  *
  * @throws RequestError BAD_OPTION: unknown id, or an override that cannot be.
  * @example resolveProfile('q', { lacks: { readBlock: true, writeBlock: true }, limits: { readWords: 480 } })
  */
-export function resolveProfile(idOrProfile: ProfileId | Profile, overrides?: ProfileOverrides): Profile {
-  const profile = typeof idOrProfile === 'string' ? profileOf(idOrProfile) : idOrProfile
+export function resolveProfile(idOrProfile: ProfileId | ProfileInfo, overrides?: ProfileOverrides): Profile {
+  const profile = typeof idOrProfile === 'string' ? profileOf(idOrProfile) : wholeOf(idOrProfile)
   return overrides === undefined ? profile : withOverrides(profile, overrides)
 }
