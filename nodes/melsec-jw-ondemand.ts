@@ -48,7 +48,7 @@ function listen(settings: StoredSettings, tools: Tools, display: Display): undef
   const unreadable = (frame: UnsolicitedFrame) => {
     if (frame.error !== undefined) failed(frame.error, frame, Buffer.from(frame.body))
   }
-  const ends = [client.on('ondemand', told), client.on('unsolicited', unreadable)]
+  const ends = [client.on('onDemand', told), client.on('unsolicited', unreadable)]
   node.on('close', () => {
     for (const end of ends) end()
   })

@@ -52,7 +52,7 @@ async function listen(terminal: Terminal, options: ListenOptions): Promise<numbe
     enough = resolve
   })
   const prepare = (client: MelsecClient) => {
-    client.on('ondemand', (onDemand) => {
+    client.on('onDemand', (onDemand) => {
       if (left <= 0) return
       left -= 1
       print(terminal, onDemand, options)

@@ -52,7 +52,7 @@ async function connected(options: Partial<MelsecClientOptions>, run: (told: Told
   const client = createMelsecClient({ host: 'plc', port: 1, profile: 'iq-r', ...options, openTransport })
   const onDemand: OnDemand[] = []
   const unsolicited: UnsolicitedFrame[] = []
-  client.on('ondemand', (data) => onDemand.push(data))
+  client.on('onDemand', (data) => onDemand.push(data))
   client.on('unsolicited', (frame) => unsolicited.push(frame))
   try {
     await client.connect()
@@ -183,7 +183,7 @@ describe('refused is', () => {
 
   test('listening with the 1E frame, which has no On-demand', () => {
     const client = make({ frame: '1E' })
-    const listen = () => client.on('ondemand', () => {})
+    const listen = () => client.on('onDemand', () => {})
     expect(listen).toThrow(expect.objectContaining({ code: 'UNSUPPORTED', field: 'frame' }))
     expect(listen).toThrow(RequestError)
     expect(() => client.on('unsolicited', () => {})).not.toThrow()
@@ -192,12 +192,12 @@ describe('refused is', () => {
   test.each(['3E', '4E'] as const)('listening over UDP with %s and without a port that the PLC can know', (frame) => {
     const wanted = { transport: 'udp', profile: 'iq-r', frame } as const
     for (const options of [wanted, { ...wanted, localPort: 0 }]) {
-      const listen = () => make(options).on('ondemand', () => {})
+      const listen = () => make(options).on('onDemand', () => {})
       expect(listen).toThrow(expect.objectContaining({ code: 'BAD_OPTION', field: 'localPort' }))
       expect(listen).toThrow(/localPort/)
     }
-    expect(() => make({ ...wanted, localPort: 5011 }).on('ondemand', () => {})).not.toThrow()
-    expect(() => make({ profile: 'iq-r', frame }).on('ondemand', () => {})).not.toThrow()
+    expect(() => make({ ...wanted, localPort: 5011 }).on('onDemand', () => {})).not.toThrow()
+    expect(() => make({ profile: 'iq-r', frame }).on('onDemand', () => {})).not.toThrow()
   })
 
   test('asking for it', () =>

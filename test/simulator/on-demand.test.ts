@@ -10,7 +10,7 @@ import { bench, readD, word } from './wire'
 /** What a client is told, in order. */
 function listen(client: MelsecClient): OnDemand[] {
   const told: OnDemand[] = []
-  client.on('ondemand', (data) => told.push(data))
+  client.on('onDemand', (data) => told.push(data))
   return told
 }
 
@@ -157,7 +157,7 @@ describe('in time', () => {
     withLine('tcp 3E binary iq-r', { plc: { scanTime: 20 } }, async ({ plc, client }) => {
       await client.connect()
       const order: string[] = []
-      client.on('ondemand', () => order.push('on-demand'))
+      client.on('onDemand', () => order.push('on-demand'))
       const { requests } = plc.statistics
       const reading = client.read('D0').then(() => order.push('answer'))
       await until(() => plc.statistics.requests > requests)

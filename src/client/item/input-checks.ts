@@ -52,7 +52,7 @@ export function checkRequest(command: Command, message: unknown, form: unknown):
     throw new RequestError('BAD_MESSAGE', 'request() takes a declared command, e.g. commands.readWords.', 'command')
   }
   if (command.sender === 'plc') {
-    const message = `${command.title} is sent by the PLC and cannot be requested: listen with on('ondemand').`
+    const message = `${command.title} is sent by the PLC and cannot be requested: listen with on('onDemand').`
     throw new RequestError('UNSUPPORTED', message, 'command')
   }
   if (!isPlainObject(message)) {

@@ -11,7 +11,7 @@ export interface ClientEvents {
   /** A frame was sent or received. Costs time only while somebody listens. */
   readonly trace: TraceEntry
   /** Data that the PLC sent unasked (On-demand, 2101). Nothing is answered. Not with 1E; over UDP it needs `localPort`. */
-  readonly ondemand: OnDemand
+  readonly onDemand: OnDemand
   /** A frame that the PLC sent unasked, as it is: each one, also what cannot be read. */
   readonly unsolicited: UnsolicitedFrame
 }
@@ -23,7 +23,7 @@ export interface UnsolicitedFrame {
   readonly body: Buffer
   /** Milliseconds since 1970. */
   readonly timestamp: number
-  /** Why it is no On-demand that can be read; absent when `ondemand` tells it. */
+  /** Why it is no On-demand that can be read; absent when `onDemand` tells it. */
   readonly error?: ProtocolError
 }
 

@@ -59,7 +59,7 @@ const CLOSING_TIME = 500
 const EVENTS = {
   state: true,
   trace: true,
-  ondemand: true,
+  onDemand: true,
   unsolicited: true,
 } as const satisfies Record<keyof ClientEvents, true>
 
@@ -180,16 +180,16 @@ export class MelsecClient {
 
   /**
    * Listens to an event; does not connect by itself, see `connect()`. @returns what ends it.
-   * @throws RequestError BAD_OPTION when there is no such event; of `ondemand` also when it could never come
+   * @throws RequestError BAD_OPTION when there is no such event; of `onDemand` also when it could never come
    */
   on<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
-    if (event === 'ondemand') checkOnDemand(this.#protocol, this.#settings, this.options)
+    if (event === 'onDemand') checkOnDemand(this.#protocol, this.#settings, this.options)
     return this.#listeners.on(event, listener)
   }
 
   /** As `on`, for the next event only. @returns what ends it before. @throws RequestError BAD_OPTION as `on` does */
   once<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
-    if (event === 'ondemand') checkOnDemand(this.#protocol, this.#settings, this.options)
+    if (event === 'onDemand') checkOnDemand(this.#protocol, this.#settings, this.options)
     return this.#listeners.once(event, listener)
   }
 
@@ -208,7 +208,7 @@ export class MelsecClient {
     if (read === undefined) return
     const { frame, onDemand } = unsolicitedOf(read, request.body, this.#settings.clock.time())
     this.#listeners.tell('unsolicited', frame)
-    if (onDemand !== undefined) this.#listeners.tell('ondemand', onDemand)
+    if (onDemand !== undefined) this.#listeners.tell('onDemand', onDemand)
   }
 
   #changed(state: ConnectionState): void {
