@@ -2,7 +2,7 @@
 
 import { hex } from '../src/basics/hex'
 import { commands } from '../src/entry/codec'
-import type { Language, PlcErrorCode } from '../src/index'
+import type { EndCodeAbout, EndCodeFamily, Language, PlcErrorCode } from '../src/index'
 import {
   ConnectionError,
   EndCodeError,
@@ -33,6 +33,10 @@ export interface FailureDetails {
   readonly outcome: Outcome
   /** The number the PLC sent, e.g. 0xC056. */
   readonly endCode?: number
+  /** Whose number it is: another family means something else by it. */
+  readonly family?: EndCodeFamily
+  /** What the end code is about, e.g. `item` or `state`. */
+  readonly about?: EndCodeAbout
   /** Of a 1E frame with end code 5BH: the code behind it. */
   readonly abnormalCode?: number
   /** What the end code means and what to do, in the language of the runtime. */
@@ -40,6 +44,8 @@ export interface FailureDetails {
   readonly remedy?: string
   /** Manual's name of the command. */
   readonly command?: string
+  /** Its name for programs, e.g. `readWords`. */
+  readonly commandName?: string
   /** Station that reported the error. */
   readonly station?: string
   /** Item, field or option it is about. */
@@ -105,12 +111,14 @@ export function detailsOf(thrown: unknown, texts: Texts): FailureDetails {
 
 function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
   if (error instanceof EndCodeError) {
-    const { endCode, abnormalCode, command, station } = error
+    const { endCode, family, about, abnormalCode, command, commandName, station } = error
     const explained = explanationOf(error, languageOf(texts))
     return {
       endCode,
+      family,
+      about,
       ...(abnormalCode === undefined ? {} : { abnormalCode }),
-      ...present({ ...explained, command, station }),
+      ...present({ ...explained, command, commandName, station }),
       ...toldWith(refusedText(error, explained, texts), isPortLocked(error) ? [texts('error.portLocked')] : []),
     }
   }
@@ -135,34 +143,32 @@ interface Explanation {
   readonly remedy?: string
 }
 
-/** Meaning and remedy in a language. None where the error has none: the number is of a family without texts. */
+/** Meaning and remedy in a language. None where the family of the error has no texts. */
 function explanationOf(error: EndCodeError, language: Language): Explanation {
-  const { endCode, abnormalCode, command } = error
-  if (error.meaning === undefined) return {}
-  const named = nameOf(command)
-  const refused = explainEndCode(endCode, { language, ...(named === undefined ? {} : { command: named }) })
-  const reason = abnormalCode === undefined ? undefined : explainEndCode(abnormalCode, { language })
-  const meaning = [refused?.meaning, refused?.cause, reason?.meaning].filter((part) => part !== undefined).join(' ')
-  return present({ meaning, remedy: reason?.remedy ?? refused?.remedy })
-}
-
-/** The command that an error names by its title. */
-function nameOf(title: string | undefined): keyof typeof commands | undefined {
-  return Object.values(commands).find((command) => command.title === title)?.name
+  const explained = explainEndCode(error, { language })
+  if (explained === undefined) return {}
+  const { meaning, cause, remedy } = explained
+  return { meaning: cause === undefined ? meaning : `${meaning} ${cause}`, remedy }
 }
 
 /** The whole sentence where the runtime does not speak English: the library's own is. */
 function refusedText(error: EndCodeError, { meaning, remedy }: Explanation, texts: Texts): string {
-  const { endCode, abnormalCode, command } = error
+  const { command } = error
   if (languageOf(texts) === 'en-US' || meaning === undefined || command === undefined) return error.message
-  // Codes of 1E frames have two digits, all others four.
-  const digits = abnormalCode === undefined ? [endCode] : [endCode, abnormalCode]
-  const code = digits.map((number) => `${hex(number, number > 0xff ? 4 : 2)}H`).join(', ')
-  const named = nameOf(command)
-  const title = named === undefined ? command : texts(`command.${named}`)
-  const text = texts('error.refused', { command: title, code, meaning, remedy: remedy ?? '' })
+  const title = titleOf(error, texts) ?? command
+  const text = texts('error.refused', { command: title, code: codeText(error), meaning, remedy: remedy ?? '' })
   const head = headOfError(error)
   return head === undefined ? text : `${head}: ${text}`
+}
+
+/** The command in the language of the runtime; the sets of MELSEC share its names, as far as they have the command. */
+function titleOf({ family, commandName = '' }: EndCodeError, texts: Texts): string | undefined {
+  return family !== 'jw' && Object.hasOwn(commands, commandName) ? texts(`command.${commandName}`) : undefined
+}
+
+function codeText({ family, endCode, abnormalCode }: EndCodeError): string {
+  const codes = abnormalCode === undefined ? [endCode] : [endCode, abnormalCode]
+  return codes.map((code) => `${hex(code, family === 'slmp' ? 4 : 2)}H`).join(', ')
 }
 
 function reasonOf(error: PlcError): { reason?: string } {

@@ -2,7 +2,7 @@
  * Every error of this package. One base, a closed `code`, and the one fact every plant needs: `outcome`.
  *
  * - `notSent`: nothing left this program; the PLC did not see the request.
- * - `refused`: the PLC answered and did not carry it out.
+ * - `refused`: the PLC answered that it did not carry it out.
  * - `unknown`: the request may or may not have been carried out. A write with this outcome is never repeated here.
  *
  * The classes are branded with `Symbol.for`, because one Node-RED installation can hold two copies of this package
@@ -11,7 +11,7 @@
 export type Outcome = 'notSent' | 'refused' | 'unknown'
 
 /** The caller's mistake: found before anything is sent. */
-const REQUEST_CODES = [
+export const REQUEST_CODES = [
   'BAD_ADDRESS', // the text is not an address
   'BAD_TYPE', // the type does not exist, or does not fit the device
   'BAD_VALUE', // the value does not fit the type
@@ -26,7 +26,7 @@ export type RequestErrorCode = (typeof REQUEST_CODES)[number]
 /** The PLC refused: see `endCode`. */
 export type EndCodeErrorCode = 'END_CODE'
 /** The peer sent what the protocol does not allow. */
-const PROTOCOL_CODES = [
+export const PROTOCOL_CODES = [
   'TRUNCATED', // fewer bytes than the declaration needs
   'TRAILING', // bytes left over
   'BAD_DIGIT', // not a digit of the expected radix
@@ -38,7 +38,7 @@ const PROTOCOL_CODES = [
 ] as const
 export type ProtocolErrorCode = (typeof PROTOCOL_CODES)[number]
 export type TimeoutErrorCode = 'TIMEOUT'
-const CONNECTION_CODES = [
+export const CONNECTION_CODES = [
   'CONNECT_FAILED',
   'DISCONNECTED',
   'ENTRY_BUSY', // accepted, then closed at once: all entries of the PLC are taken
@@ -47,7 +47,7 @@ const CONNECTION_CODES = [
   'OFFLINE', // failing fast while the connection is being restored
 ] as const
 export type ConnectionErrorCode = (typeof CONNECTION_CODES)[number]
-const CLOSED_CODES = ['CLOSED', 'ABORTED', 'QUEUE_FULL', 'OVERLOADED'] as const
+export const CLOSED_CODES = ['CLOSED', 'ABORTED', 'QUEUE_FULL', 'OVERLOADED'] as const
 export type ClosedErrorCode = (typeof CLOSED_CODES)[number]
 export type VerifyErrorCode = 'NOT_VERIFIED'
 export type UnfinishedErrorCode = 'UNFINISHED'
@@ -119,10 +119,39 @@ export class RequestError extends BaseError {
   }
 }
 
+/**
+ * Whose number an end code is: the same number means something else in another family. `slmp`: the four digits of 3E, 4E,
+ * station extension, 3C and 4C frames, and of the registers of the PLC. `1E`, `1C`: the two digits of these frames, of 1E
+ * abnormal codes too. `jw`: the result codes of Sharp JW.
+ */
+export const endCodeFamilies = ['slmp', '1E', '1C', 'jw'] as const
+export type EndCodeFamily = (typeof endCodeFamilies)[number]
+
+/** What an end code is about. */
+export const endCodeAbouts = [
+  'item', // the device, address or label of one item; the others of the request may be fine
+  'size', // more than one request may carry
+  'command', // the PLC does not have the command, or not for this target
+  'request', // form or data of the request as a whole, e.g. its length or data code
+  'file', // the file or drive it names
+  'state', // a state or setting of the PLC: RUN, busy, writing not enabled, locked by a password
+  'route', // the way to the station, or the station at its end
+  'transmission', // the request arrived damaged
+  'unknown', // nobody knows
+] as const
+export type EndCodeAbout = (typeof endCodeAbouts)[number]
+
 /** What an `EndCodeError` knows beside its number. */
 export interface EndCodeDetail {
-  /** Manual's name of the command, e.g. `Read`. */
+  readonly family: EndCodeFamily
+  /** Default `unknown`. */
+  readonly about?: EndCodeAbout
+  /** `false`: the PLC did nothing of it. Missing: it may have been carried out, all or in part. */
+  readonly carriedOut?: false
+  /** Manual's name of the command, e.g. `Read (word units)`. */
   readonly command?: string
+  /** Name of the command in its set, e.g. `readWords`. */
+  readonly commandName?: string
   /** Station that reported the error, where the frame says so, e.g. `network 0, station 255, module I/O 03FF, multidrop 0`. */
   readonly station?: string
   /** Of a 1E frame with end code 5BH: the code behind it, which says why. */
@@ -133,12 +162,19 @@ export interface EndCodeDetail {
   readonly remedy?: string
 }
 
-/** The PLC answered with an end code other than 0. The connection lives. */
+/**
+ * The PLC answered with an end code other than 0. The connection lives. The outcome is `refused`, or `unknown` for a write
+ * or control command whose end code does not say that nothing of it was done.
+ */
 export class EndCodeError extends BaseError {
   protected static override readonly kind: string = 'EndCodeError'
   readonly code = 'END_CODE'
-  readonly outcome = 'refused'
+  readonly outcome: 'refused' | 'unknown'
+  readonly family: EndCodeFamily
+  readonly about: EndCodeAbout
+  readonly carriedOut: false | undefined
   readonly command: string | undefined
+  readonly commandName: string | undefined
   readonly station: string | undefined
   readonly abnormalCode: number | undefined
   readonly meaning: string | undefined
@@ -147,10 +183,15 @@ export class EndCodeError extends BaseError {
     /** The number the PLC sent, e.g. 0xC056. */
     readonly endCode: number,
     message: string,
-    detail: EndCodeDetail = {},
+    detail: EndCodeDetail,
   ) {
     super(EndCodeError.kind, message)
+    this.outcome = detail.carriedOut === false ? 'refused' : 'unknown'
+    this.family = detail.family
+    this.about = detail.about ?? 'unknown'
+    this.carriedOut = detail.carriedOut
     this.command = detail.command
+    this.commandName = detail.commandName
     this.station = detail.station
     this.abnormalCode = detail.abnormalCode
     this.meaning = detail.meaning
@@ -285,7 +326,11 @@ export interface PlcErrorData {
   readonly outcome: Outcome
   readonly field?: string
   readonly endCode?: number
+  readonly family?: EndCodeFamily
+  readonly about?: EndCodeAbout
+  readonly carriedOut?: false
   readonly command?: string
+  readonly commandName?: string
   readonly station?: string
   readonly abnormalCode?: number
   readonly meaning?: string
@@ -302,12 +347,12 @@ export interface PlcErrorData {
   readonly cause?: PlcErrorData | CauseData
 }
 
-const TEXTS = ['field', 'command', 'station', 'meaning', 'remedy', 'state'] as const
+const TEXTS = ['field', 'family', 'about', 'command', 'commandName', 'station', 'meaning', 'remedy', 'state'] as const
 const NUMBERS = ['endCode', 'abnormalCode', 'offset'] as const
 
 function dataOf(error: BaseError): PlcErrorData {
   const { name, code, message, outcome, cause } = error
-  const plain = [...TEXTS, ...NUMBERS, 'causes'].flatMap((field) => {
+  const plain = [...TEXTS, ...NUMBERS, 'carriedOut', 'causes'].flatMap((field) => {
     const value: unknown = Reflect.get(error, field)
     return value === undefined ? [] : [[field, value]]
   })
@@ -328,10 +373,6 @@ function hexOf(bytes: Uint8Array): string {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('')
 }
 
-function bytesOf(hex: string): Uint8Array {
-  return Uint8Array.from(hex.match(/[\da-f]{2}/gi) ?? [], (pair) => Number.parseInt(pair, 16))
-}
-
 function resultData(result: WriteResult): NonNullable<PlcErrorData['results']>[number] {
   const { item } = result
   return result.ok ? { item, ok: true } : { item, ok: false, error: result.error.toJSON() }
@@ -342,100 +383,6 @@ function causeData(cause: unknown): PlcErrorData | CauseData {
   return cause instanceof Error
     ? { name: cause.name, message: cause.message }
     : { name: 'Error', message: String(cause) }
-}
-
-/**
- * The error that `toJSON()` made plain data of: of the same class, with the same outcome. Its stack is where this is called.
- * @throws RequestError BAD_VALUE when it is none
- * @example process.on('message', (data) => handle(plcErrorFrom(data)))
- */
-export function plcErrorFrom(data: unknown): PlcError {
-  if (data instanceof PlcError) return data
-  const given = bagOf(data)
-  const { name, message } = given
-  const make = typeof name === 'string' && Object.hasOwn(MAKERS, name) ? MAKERS[name] : undefined
-  if (make === undefined || typeof message !== 'string') throw noError('name')
-  return make(message, given)
-}
-
-type Bag = Readonly<Record<string, unknown>>
-
-const MAKERS: Readonly<Record<string, (message: string, given: Bag) => PlcError>> = {
-  RequestError: (message, given) =>
-    new RequestError(oneOf(given, 'code', REQUEST_CODES), message, textIn(given, 'field')),
-  EndCodeError: (message, given) => {
-    const { endCode } = given
-    if (typeof endCode !== 'number') throw noError('endCode')
-    const fields = ['command', 'station', 'abnormalCode', 'meaning', 'remedy'].filter((field) => given[field] != null)
-    return new EndCodeError(endCode, message, Object.fromEntries(fields.map((field) => [field, given[field]])))
-  },
-  ProtocolError: (message, given) => {
-    const { bytes, offset } = given
-    const received = typeof bytes === 'string' ? bytesOf(bytes) : undefined
-    const at = typeof offset === 'number' ? offset : undefined
-    return new ProtocolError(oneOf(given, 'code', PROTOCOL_CODES), message, at, received)
-  },
-  TimeoutError: (message, given) => new TimeoutError(message, oneOf(given, 'outcome', UNANSWERED), causesIn(given)),
-  ConnectionError: (message, given) => {
-    const code = oneOf(given, 'code', CONNECTION_CODES)
-    return new ConnectionError(code, message, oneOf(given, 'outcome', UNANSWERED), causeIn(given), causesIn(given))
-  },
-  ClosedError: (message, given) =>
-    new ClosedError(oneOf(given, 'code', CLOSED_CODES), message, oneOf(given, 'outcome', UNANSWERED), causeIn(given)),
-  VerifyError: (message, given) => new VerifyError(message, textIn(given, 'state'), causeIn(given)),
-  UnfinishedError: (message, given) => new UnfinishedError(message, causeIn(given)),
-  WriteError: (message, given) => {
-    const { results } = given
-    if (!Array.isArray(results)) throw noError('results')
-    return new WriteError(
-      message,
-      oneOf(given, 'outcome', OUTCOMES),
-      results.map(resultFrom),
-      plcErrorFrom(given.cause),
-    )
-  },
-}
-
-const UNANSWERED = ['notSent', 'unknown'] as const
-const OUTCOMES = ['notSent', 'refused', 'unknown'] as const satisfies readonly Outcome[]
-
-function resultFrom(data: unknown): WriteResult {
-  const { item, ok, error } = bagOf(data)
-  if (typeof item !== 'string' || typeof ok !== 'boolean') throw noError('results')
-  return ok ? { item, ok } : { item, ok, error: plcErrorFrom(error) }
-}
-
-function bagOf(data: unknown): Bag {
-  if (typeof data !== 'object' || data === null) throw noError('name')
-  return data as Bag
-}
-
-function oneOf<const T extends string>(given: Bag, field: string, allowed: readonly T[]): T {
-  const found = allowed.find((value) => value === given[field])
-  if (found === undefined) throw noError(field)
-  return found
-}
-
-function textIn(given: Bag, field: string): string | undefined {
-  const value = given[field]
-  return typeof value === 'string' ? value : undefined
-}
-
-function causesIn({ causes }: Bag): readonly string[] {
-  return Array.isArray(causes) ? causes.map(String) : []
-}
-
-function causeIn({ cause }: Bag): unknown {
-  if (cause === undefined || cause === null) return undefined
-  const { name, message } = bagOf(cause)
-  if (typeof name === 'string' && Object.hasOwn(MAKERS, name)) return plcErrorFrom(cause)
-  const error = new Error(String(message))
-  error.name = String(name)
-  return error
-}
-
-function noError(field: string): RequestError {
-  return new RequestError('BAD_VALUE', `This is no error as toJSON() writes it: its ${field} is wrong.`, field)
 }
 
 /** Every error of this package: `error.code` says which, and narrows the type. */

@@ -69,16 +69,18 @@ export {
   type ClosedErrorCode,
   ConnectionError,
   type ConnectionErrorCode,
+  type EndCodeAbout,
   type EndCodeDetail,
   EndCodeError,
   type EndCodeErrorCode,
+  type EndCodeFamily,
+  endCodeFamilies,
   type Outcome,
   PlcError,
   type PlcErrorCode,
   type PlcErrorData,
   ProtocolError,
   type ProtocolErrorCode,
-  plcErrorFrom,
   RequestError,
   type RequestErrorCode,
   TimeoutError,
@@ -91,6 +93,7 @@ export {
   type WriteErrorCode,
   type WriteResult,
 } from './errors'
+export { plcErrorFrom } from './errors/from-data'
 export type { Command, RequestOf, ResponseOf } from './melsec/commands/command'
 export type { CommandName, Commands } from './melsec/commands/commands'
 export type { DeviceAddress, DeviceExtension, DeviceName, DeviceUnit, Radix } from './melsec/device/device'
@@ -99,11 +102,15 @@ export type { Notation } from './melsec/device/json'
 export type { LimitUnit } from './melsec/device/limit-rule'
 export {
   type EndCodeExplanation,
+  type ExplainCodeOptions,
   type ExplainOptions,
   endCodes,
   explainEndCode,
   type Language,
   languages,
+  type MelsecEndCodeFamily,
+  meaningsOfEndCode,
+  melsecEndCodeFamilies,
 } from './melsec/end-codes/end-code'
 export type { EndCodeEntry } from './melsec/end-codes/entry'
 export type { RemedyName } from './melsec/end-codes/remedies'

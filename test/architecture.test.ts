@@ -203,6 +203,14 @@ describe('the sources', () => {
     expect(sources.flatMap(brokenImports)).toEqual([])
   })
 
+  test('of the client ask an error what an end code is about, not the tables of a family', () => {
+    const asking = sources.filter(
+      ({ room, imports }) =>
+        room.startsWith('client/') && imports.some(({ specifier }) => /\/end-codes\//.test(specifier)),
+    )
+    expect(asking.map(({ path }) => path)).toEqual([])
+  })
+
   test('leave timers, the clock and the process to src/transport and the command line', () => {
     expect(sources.flatMap(brokenNames)).toEqual([])
   })

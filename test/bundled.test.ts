@@ -25,7 +25,7 @@ import { createPlcSimulator } from '@melsec-jw/plc/simulator'
 const { createMelsecClient, plcErrorFrom, PlcError, bytesOfText, textOfBytes } = all
 const made = {
   RequestError: new all.RequestError('BAD_VALUE', 'm', 'f'),
-  EndCodeError: new all.EndCodeError(0xc056, 'm'),
+  EndCodeError: new all.EndCodeError(0xc056, 'm', { family: 'slmp' }),
   ProtocolError: new all.ProtocolError('BAD_FRAME', 'm'),
   TimeoutError: new all.TimeoutError('m', 'unknown'),
   ConnectionError: new all.ConnectionError('OFFLINE', 'm'),
@@ -56,7 +56,7 @@ for (const one of [client, inside]) {
   assert.equal(one.state.name, 'connected')
 }
 // What is loaded only when it is asked for: texts of end codes, character codes.
-assert(all.explainEndCode(0xc056, { language: 'ja' }).meaning.length > 0)
+assert(all.explainEndCode(0xc056, { family: 'slmp', language: 'ja' }).meaning.length > 0)
 assert.equal(textOfBytes(bytesOfText('山田', 'shift-jis'), 'shift-jis'), '山田')
 await client.close()
 await inside.close()

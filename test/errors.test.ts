@@ -16,16 +16,22 @@ import {
 } from '../src/index'
 
 const refused = new EndCodeError(0xc056, 'refused', {
-  command: 'Read',
+  family: 'slmp',
+  about: 'item',
+  carriedOut: false,
+  command: 'Read (word units)',
+  commandName: 'readWords',
   station: 'network 0',
   abnormalCode: 0x10,
   meaning: 'm',
   remedy: 'r',
 })
+const perhaps = new EndCodeError(0xc1a2, 'no answer of the target', { family: 'slmp', about: 'route' })
 const offline = new ConnectionError('OFFLINE', 'offline', 'notSent', new Error('EPIPE'), ['a', 'b'])
 const errors: readonly PlcError[] = [
   new RequestError('BAD_VALUE', 'bad', 'D0'),
   refused,
+  perhaps,
   new ProtocolError('BAD_FRAME', 'frame', 2, Uint8Array.of(1, 0xff)),
   new TimeoutError('late', 'unknown', ['cable']),
   offline,
@@ -72,7 +78,7 @@ test('an error comes back from a worker', async () => {
   )
   const data = await new Promise((resolve) => worker.once('message', resolve))
   await worker.terminate()
-  expect(plcErrorFrom(data)).toMatchObject({ endCode: 0xc056, outcome: 'refused', command: 'Read', abnormalCode: 0x10 })
+  expect(plcErrorFrom(data)).toMatchObject(refused.toJSON())
 })
 
 test.each([
@@ -80,7 +86,9 @@ test.each([
   'text',
   {},
   { name: 'RequestError', message: 'm', code: 'NONE', outcome: 'notSent' },
-  { name: 'EndCodeError', message: 'm' },
+  { name: 'EndCodeError', message: 'm', family: 'slmp', about: 'item' },
+  { name: 'EndCodeError', message: 'm', endCode: 0xc056, about: 'item' },
+  { name: 'EndCodeError', message: 'm', endCode: 0xc056, family: 'slmp', about: 'weather' },
   { name: 'TimeoutError', message: 'm', outcome: 'refused' },
   { name: 'WriteError', message: 'm', outcome: 'unknown', results: [5] },
   { name: 'toString', message: 'm' },
@@ -93,6 +101,12 @@ test('a class of a program that extends one of ours is told apart', () => {
   const own = new Own('BAD_VALUE', 'm')
   expect([own instanceof Own, own instanceof RequestError, own instanceof PlcError]).toEqual([true, true, true])
   expect(new RequestError('BAD_VALUE', 'm')).not.toBeInstanceOf(Own)
+})
+
+test('an end code that does not say that nothing was done has an unknown outcome', () => {
+  expect([refused.carriedOut, refused.outcome]).toEqual([false, 'refused'])
+  expect([perhaps.carriedOut, perhaps.outcome]).toEqual([undefined, 'unknown'])
+  expect(new EndCodeError(0x9999, 'm', { family: 'jw' })).toMatchObject({ about: 'unknown', outcome: 'unknown' })
 })
 
 test('the code narrows the type', () => {
@@ -111,7 +125,7 @@ test('the code narrows the type', () => {
         return error.endCode
     }
   })
-  expect(facts).toEqual(['D0', 0xc056, undefined, ['cable'], undefined, undefined, undefined, undefined, 2])
+  expect(facts).toEqual(['D0', 0xc056, 0xc1a2, undefined, ['cable'], undefined, undefined, undefined, undefined, 2])
 })
 
 test('instanceof narrows the type', () => {

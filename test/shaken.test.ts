@@ -18,7 +18,7 @@ afterAll(() => packed?.remove())
 /** A text that is in each part of the package and nowhere else. */
 const parts = {
   simulator: 'This simulator is closed',
-  endCodeTexts: explainEndCode(0xc059)?.meaning ?? '',
+  endCodeTexts: explainEndCode(0xc059, { family: 'slmp' })?.meaning ?? '',
   characterTables: 'Encoding not recognized',
   client: 'Connecting took longer than allowed',
   commands: 'Read (word units)',
@@ -38,11 +38,11 @@ const programs: Readonly<Record<string, readonly [program: string, has: readonly
     [],
   ],
   'one class of errors': [
-    `import { EndCodeError } from '@melsec-jw/plc'; console.log(new EndCodeError(0xc059, 'refused').name)`,
+    `import { EndCodeError } from '@melsec-jw/plc'; console.log(new EndCodeError(0xc059, 'refused', { family: 'slmp' }).name)`,
     [],
   ],
   'the texts of end codes': [
-    `import { explainEndCode } from '@melsec-jw/plc'; console.log(explainEndCode(0xc059))`,
+    `import { explainEndCode } from '@melsec-jw/plc'; console.log(explainEndCode(0xc059, { family: 'slmp' }))`,
     ['endCodeTexts'],
   ],
   'a client': [

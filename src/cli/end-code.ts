@@ -1,6 +1,6 @@
 // End codes as the manuals and GX Works write them.
 import { hex } from '../basics/hex'
-import { RequestError } from '../index'
+import { type EndCodeFamily, RequestError } from '../index'
 
 /**
  * Up to four hexadecimal digits, also as `0xC059` and `C059H`.
@@ -16,7 +16,7 @@ export function endCodeOf(text: string): number {
   )
 }
 
-/** e.g. `C059H` */
-export function endCodeText(endCode: number): string {
-  return `${hex(endCode, 4)}H`
+/** e.g. `C059H`; of 1E and 1C frames `5BH` */
+export function endCodeText(endCode: number, family: EndCodeFamily = 'slmp'): string {
+  return `${hex(endCode, family === 'slmp' ? 4 : 2)}H`
 }

@@ -1,5 +1,15 @@
 import { commands } from '../entry/codec'
-import { type CommandName, explainEndCode, type Language, languages, RequestError } from '../index'
+import {
+  type CommandName,
+  type EndCodeExplanation,
+  explainEndCode,
+  type Language,
+  languages,
+  type MelsecEndCodeFamily,
+  meaningsOfEndCode,
+  melsecEndCodeFamilies,
+  RequestError,
+} from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { choice, jsonOption } from './connection-options'
 import { endCodeOf, endCodeText } from './end-code'
@@ -12,10 +22,12 @@ const examples = [
   'explain 0xC056 --language ja',
   'explain C059 --command executeMonitor',
   'explain 7601 --language zh-CN',
+  'explain 10 --family 1E',
 ]
 
 interface ExplainOptions {
   readonly language: Language
+  readonly family?: MelsecEndCodeFamily
   readonly command?: CommandName
   readonly json?: boolean
 }
@@ -24,6 +36,13 @@ interface ExplainOptions {
 export const explainCommand: MakeCommand = (run) =>
   newCommand('explain', 'what an end code or error code of the PLC means, and what to do', examples)
     .argument('<end code>', 'hexadecimal digits, as the PLC and GX Works show it')
+    .addOption(
+      choice(
+        '--family <family>',
+        'whose number it is: slmp (four digits, 3E, 4E, 3C and 4C frames and registers), 1E or 1C (two digits); default all that have it',
+        melsecEndCodeFamilies,
+      ),
+    )
     .addOption(choice('--language <language>', 'language of the text', languages).default('en-US'))
     .addOption(
       choice(
@@ -40,31 +59,42 @@ export const explainCommand: MakeCommand = (run) =>
       }),
     )
 
-function explain(terminal: Terminal, text: string, { language, command, json: asJson }: ExplainOptions): void {
+function explain(terminal: Terminal, text: string, options: ExplainOptions): void {
   const endCode = endCodeOf(text)
+  const found = explanationsOf(endCode, options)
   const shown = endCodeText(endCode)
-  const found = explainEndCode(endCode, { language, ...(command === undefined ? {} : { command }) })
-  if (found === undefined) {
+  if (found.length === 0) {
     throw new RequestError(
       'BAD_VALUE',
       `No text is known for end code ${shown}. Look it up in the manual of the module.`,
       'end code',
     )
   }
-  if (asJson === true) {
-    terminal.out(json({ endCode, ...found }))
+  if (options.json === true) {
+    terminal.out(json({ endCode, meanings: found }))
     return
   }
-  const { meaning, cause, remedy, where, answer, exact } = found
-  terminal.out(
-    table([
-      [answer ? 'End code' : 'Error code', shown],
-      // Whoever found the number in a register must not take it for the answer to a request, nor the other way round.
-      ...where.map((text, index) => [index === 0 ? 'Where' : '', text]),
-      ['Meaning', meaning],
-      ...(cause === undefined ? [] : [['Cause', cause]]),
-      ['Remedy', remedy],
-      ...(exact ? [] : [['Note', 'Only the range of this code is known.']]),
-    ]),
-  )
+  if (found.length > 1) terminal.out(`${shown} means something else in each of these frames: say --family.`)
+  terminal.out(found.map((one) => explanationText(endCode, one)).join('\n\n'))
+}
+
+/** All there are, unless the user knows where the number is from. */
+function explanationsOf(endCode: number, { family, language, command }: ExplainOptions): readonly EndCodeExplanation[] {
+  const options = { language, ...(command === undefined ? {} : { command }) }
+  if (family === undefined) return meaningsOfEndCode(endCode, options)
+  const found = explainEndCode(endCode, { family, ...options })
+  return found === undefined ? [] : [found]
+}
+
+function explanationText(endCode: number, explanation: EndCodeExplanation): string {
+  const { family, meaning, cause, remedy, where, answer, exact } = explanation
+  return table([
+    [answer ? 'End code' : 'Error code', endCodeText(endCode, family)],
+    // Whoever found the number in a register must not take it for the answer to a request, nor the other way round.
+    ...where.map((text, index) => [index === 0 ? 'Where' : '', text]),
+    ['Meaning', meaning],
+    ...(cause === undefined ? [] : [['Cause', cause]]),
+    ['Remedy', remedy],
+    ...(exact ? [] : [['Note', 'Only the range of this code is known.']]),
+  ])
 }

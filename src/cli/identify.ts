@@ -3,7 +3,7 @@ import { EndCodeError, type Identity, type MelsecClient, type PlcError, RequestE
 import { type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, peerText, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
-import { errorData, errorText, json, table } from './output'
+import { errorText, json, table } from './output'
 import type { Terminal } from './terminal'
 
 const examples = ['identify --plc 192.168.3.39:5010', 'identify --plc 192.168.3.250:5010 --profile iq-f --json']
@@ -57,7 +57,7 @@ function show(terminal: Terminal, options: ConnectionOptions, client: MelsecClie
 
 function showUnnamed(terminal: Terminal, options: ConnectionOptions, client: MelsecClient, error: PlcError): void {
   const roundTrip = client.statistics.roundTrip?.last
-  if (options.json === true) terminal.out(json({ plc: peerText(options), error: errorData(error), roundTrip }))
+  if (options.json === true) terminal.out(json({ plc: peerText(options), error: error.toJSON(), roundTrip }))
   else
     terminal.out(
       table([

@@ -4,11 +4,9 @@ import {
   EndCodeError,
   isPortLocked,
   type PlanDescription,
-  PlcError,
+  type PlcError,
   type ReadValue,
-  RequestError,
   TimeoutError,
-  UnfinishedError,
 } from '../index'
 import type { Terminal } from './terminal'
 
@@ -76,23 +74,6 @@ function isLocked(error: PlcError): boolean {
   return error instanceof EndCodeError && isPortLocked(error)
 }
 
-/** An error as data, with everything it knows. */
-export function errorData(error: PlcError): Readonly<Record<string, unknown>> {
-  const { name, code, message, outcome } = error
-  return {
-    name,
-    code,
-    message,
-    outcome,
-    ...(error instanceof RequestError && error.field !== undefined ? { field: error.field } : {}),
-    ...(error instanceof EndCodeError
-      ? { endCode: error.endCode, meaning: error.meaning, remedy: error.remedy, station: error.station }
-      : {}),
-    ...(error instanceof UnfinishedError && error.cause instanceof PlcError ? { cause: errorData(error.cause) } : {}),
-    ...(causesOf(error).length === 0 ? {} : { causes: causesOf(error) }),
-  }
-}
-
 function causesOf(error: PlcError): readonly string[] {
   return error instanceof ConnectionError || error instanceof TimeoutError ? error.causes : []
 }
@@ -116,5 +97,5 @@ export function itemErrorText(item: string, error: PlcError): string {
 /** Prints an error that ended a command. */
 export function printError(terminal: Terminal, error: PlcError, asJson: boolean): void {
   terminal.error(errorText(error))
-  if (asJson) terminal.out(json({ error: errorData(error) }))
+  if (asJson) terminal.out(json({ error: error.toJSON() }))
 }

@@ -9,7 +9,7 @@ import {
   withClient,
 } from './connection-options'
 import { exitOfPlan, exitOfResults } from './exit-code'
-import { errorData, itemErrorText, json, planText, table, valueText } from './output'
+import { itemErrorText, json, planText, table, valueText } from './output'
 import type { Terminal } from './terminal'
 
 const examples = [
@@ -90,7 +90,7 @@ function explanationOf(client: MelsecClient, item: string): ItemExplanation | un
 }
 
 function resultData(result: ReadResult): Readonly<Record<string, unknown>> {
-  return result.ok ? { ...result } : { ...result, error: errorData(result.error) }
+  return result.ok ? { ...result } : { ...result, error: result.error.toJSON() }
 }
 
 function tornText(result: ReadResult): readonly string[] {

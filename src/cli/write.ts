@@ -20,7 +20,7 @@ import {
   withClient,
 } from './connection-options'
 import { exitOfPlan, exitOfResults } from './exit-code'
-import { errorData, errorText, itemErrorText, json, planText, table, valueText } from './output'
+import { errorText, itemErrorText, json, planText, table, valueText } from './output'
 import { refusalOf, type Terminal } from './terminal'
 import { typedValue } from './typed-value'
 
@@ -200,7 +200,7 @@ function show(
 function resultData(results: readonly WriteResult[], result: WriteResult): unknown {
   if (result.ok) return result
   const together = sharing(results, result)
-  return { ...result, error: errorData(result.error), ...(together.length === 0 ? {} : { together }) }
+  return { ...result, error: result.error.toJSON(), ...(together.length === 0 ? {} : { together }) }
 }
 
 /** Items that were refused in the same request: one of them is to blame, and which one no end code says. */

@@ -3,6 +3,7 @@ import { EndCodeError } from '../errors'
 import { HeadProtocol } from '../link/link'
 import { jwCommands } from './commands'
 import { type JwFrameOptions, type JwHead, jwFrame } from './frame'
+import { resultFacts } from './result-codes'
 
 /**
  * The JW-255CM commands over Ethernet; binary only.
@@ -19,7 +20,8 @@ export function jwProtocol(options: JwFrameOptions = {}): HeadProtocol<JwHead> {
     refusal: (command, frame) => {
       const code = hex(frame.endCode, 2)
       return new EndCodeError(frame.endCode, `${command.title} was refused with result code ${code}H.`, {
-        command: command.title,
+        family: 'jw',
+        ...resultFacts.refusal(command, frame.endCode),
       })
     },
   })

@@ -1,5 +1,13 @@
 // The public names of this room.
 
+export {
+  type Codes,
+  type EndCodeFacts,
+  type EndCodeTable,
+  each,
+  endCodeFacts,
+  type RefusalFacts,
+} from './end-code-facts'
 export { type Exchange, framed } from './exchange'
 export { type Echo, Fence, type FenceOptions } from './fence'
 export type { FrameExplainer, KnownFrames, ReceivedFrame, SentFrame } from './frame-explainer'

@@ -21,7 +21,8 @@ import type { DeviceForm } from './device/device-form'
 import { chooseForm, codecBits, FORM_BITS, findCommand, subcommandOf } from './device/form'
 import { checkLimits } from './device/limit'
 import { devicesOf } from './device/uses'
-import { explainEndCode } from './end-codes/end-code'
+import { refusalTexts } from './end-codes/end-code'
+import { factsOf } from './end-codes/facts'
 import { type BodyLayout, commandFields, type ErrorInformation, plainBody } from './frame/body'
 import { describeRoute } from './frame/route'
 import type { Profile } from './profiles/profile'
@@ -237,17 +238,18 @@ export class SlmpCommandSet {
         `The answer with end code ${hex(frame.endCode, 4)} is about ${codes(information)}, not ${codes({ command: command.code, subcommand })}.`,
       )
     }
-    const text = explainEndCode(frame.endCode, { command: command.name as CommandName })
+    const { endCode } = frame
     const station = information === undefined ? undefined : describeRoute(information)
-    const meaning = [text?.meaning, text?.cause].filter((part) => part !== undefined).join(' ')
-    const known = text === undefined ? 'No text is known for this code.' : `${meaning} ${text.remedy}`
+    const { texts, sentences } = refusalTexts('slmp', { endCode, commandName: command.name })
+    const reporter = station === undefined ? '' : ` (Reported by ${station}.)`
     return new EndCodeError(
-      frame.endCode,
-      `${command.title} was refused with end code ${hex(frame.endCode, 4)}: ${known}${station === undefined ? '' : ` (Reported by ${station}.)`}`,
+      endCode,
+      `${command.title} was refused with end code ${hex(endCode, 4)}: ${sentences}${reporter}`,
       {
-        command: command.title,
+        family: 'slmp',
+        ...factsOf.slmp.refusal(command, endCode),
         ...(station === undefined ? {} : { station }),
-        ...(text === undefined ? {} : { meaning, remedy: text.remedy }),
+        ...texts,
       },
     )
   }

@@ -22,14 +22,15 @@ export function passwordProblem(profile: Profile, password: unknown): string | u
 export const PORT_LOCKED = 0xc201
 
 /** Whether the port waits for its remote password. */
-export function isPortLocked({ endCode }: EndCodeError): boolean {
-  return endCode === PORT_LOCKED
+export function isPortLocked({ family, endCode }: EndCodeError): boolean {
+  return family === 'slmp' && endCode === PORT_LOCKED
 }
 
 /**
  * Whether a refusal of Unlock is about the password itself. Sending it again could only lock the PLC out. Other
  * refusals (a CPU that is just starting) may pass.
  */
-export function isPasswordRefusal({ endCode }: EndCodeError): boolean {
+export function isPasswordRefusal({ family, endCode }: EndCodeError): boolean {
+  if (family !== 'slmp') return false
   return (endCode >= 0xc200 && endCode <= 0xc20f) || (endCode >= 0xc810 && endCode <= 0xc81f)
 }

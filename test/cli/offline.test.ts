@@ -222,7 +222,22 @@ describe('explain', () => {
 
   test('as JSON', async () => {
     const { out } = await run('explain', 'C056', '--json')
-    expect(JSON.parse(out)).toMatchObject({ endCode: 0xc056, exact: true })
+    expect(JSON.parse(out)).toMatchObject({
+      endCode: 0xc056,
+      meanings: [{ family: 'slmp', about: 'item', exact: true }],
+    })
+  })
+
+  test('a number of several frames: all its meanings, or that of the one the user names', async () => {
+    const all = await run('explain', '10')
+    expect(all.out).toMatch(/say --family/)
+    expect([...all.out.matchAll(/^End code +(\w+)$/gm)].map(([, code]) => code)).toEqual(['10H', '10H'])
+    expect([...all.out.matchAll(/^Where +.*\b(1E|1C) frame/gm)].map(([, frame]) => frame)).toEqual(['1E', '1C'])
+    const one = await run('explain', '10', '--family', '1C')
+    expect([...one.out.matchAll(/^End code/gm)]).toHaveLength(1)
+    expect(one.out).not.toMatch(/say --family/)
+    expect((await run('explain', 'C056', '--family', '1E')).code).toBe(2)
+    expect((await run('explain', '10', '--family', 'jw')).code).toBe(2)
   })
 
   test.each([

@@ -268,7 +268,11 @@ test('a refusal tells what it means, the likely cause for this command, and what
   withLine('tcp 3E binary q', {}, async ({ plc, client }) => {
     plc.faults.add({ kind: 'endCode', endCode: 0xc059, commands: ['readTypeName'] })
     const error = (await failureOf(client.identify())) as EndCodeError
-    const { meaning = '', cause = '', remedy = '' } = explainEndCode(0xc059, { command: 'readTypeName' }) ?? {}
+    const {
+      meaning = '',
+      cause = '',
+      remedy = '',
+    } = explainEndCode(0xc059, { family: 'slmp', command: 'readTypeName' }) ?? {}
     expect(cause).toContain('E71')
     expect(error).toMatchObject({ meaning: `${meaning} ${cause}`, remedy })
     expect(error.message).toContain(`${meaning} ${cause} ${remedy}`)

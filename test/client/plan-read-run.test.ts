@@ -5,6 +5,8 @@ import type { ReadResult } from '../../src/client/item/item-value'
 import { type DeviceRead, planRead } from '../../src/client/plan/read'
 import type { SendExchange } from '../../src/client/plan/request'
 import { ConnectionError, EndCodeError, TimeoutError } from '../../src/errors'
+import { jwCommands } from '../../src/jw/commands'
+import { resultFacts } from '../../src/jw/result-codes'
 import { expectedValue, itemText, modifiedText } from './plan-arbitrary'
 import { goodValue, items, PlanPlc, protocolOf } from './plan-plc'
 
@@ -302,10 +304,29 @@ describe('a refused command', () => {
     plc.refuse = () => LOCKED
     const found = codes(await run())
     expect(new Set(found)).toEqual(new Set([LOCKED]))
-    expect(requests()).toBe(3)
+    expect(requests()).toBe(1)
     plc.refuse = () => 0
     expect(new Set(codes(await run()))).toEqual(new Set(['ok']))
     expect(requests()).toBe(1)
+  })
+})
+
+describe('an error of another family', () => {
+  // 06H and 12H are about a device in MELSEC; of a JW they say that the PLC is not stopped, and that the memory is a ROM.
+  test.each([0x06, 0x12])('%i of a JW is not divided and not asked again', async (endCode) => {
+    const { plan } = bench(range(16, (i) => `D${i * 1000}`))
+    const { readDataMemory } = jwCommands
+    const refusal = new EndCodeError(endCode, 'refused', {
+      family: 'jw',
+      ...resultFacts.refusal(readDataMemory, endCode),
+    })
+    let sent = 0
+    const send = (): Promise<never> => {
+      sent++
+      return Promise.reject(refusal)
+    }
+    expect(new Set(codes(await plan.run(send, () => 1000)))).toEqual(new Set([endCode]))
+    expect(sent).toBe(1)
   })
 })
 

@@ -3,7 +3,9 @@ import fc from 'fast-check'
 import { type ParsedItem, parseItem } from '../../src/client/item/item'
 import type { PlainValue } from '../../src/client/item/item-value'
 import { planWrite } from '../../src/client/plan/write'
-import { ClosedError, ProtocolError, TimeoutError } from '../../src/errors'
+import { ClosedError, EndCodeError, ProtocolError, TimeoutError } from '../../src/errors'
+import { jwCommands } from '../../src/jw/commands'
+import { resultFacts } from '../../src/jw/result-codes'
 import type { PlcValue } from '../../src/value/value'
 import { expectedValue } from './plan-arbitrary'
 import { PlanPlc, protocolOf } from './plan-plc'
@@ -179,6 +181,43 @@ describe('a refused merged write', () => {
     plc.refuse = () => 0x7777
     expect(codes(await run())).toEqual([0x7777, 0x7777, 0x7777])
     expect(plc.seen).toHaveLength(1)
+  })
+
+  test('with an end code nobody knows ends the write: whether it was carried out nobody knows', async () => {
+    const { run, plc } = bench([...entries, ['M0', true]])
+    plc.refuse = () => 0x7777
+    const results = await run()
+    expect(codes(results)).toEqual([0x7777, 0x7777, 0x7777, 'ABORTED notSent'])
+    expect(errorOf(results[0]).outcome).toBe('unknown')
+    expect(plc.seen).toHaveLength(1)
+  })
+
+  test.each([0xc1a2, 0xc05e, 0x4042])(
+    'that may have been carried out is not written again, nor is anything behind it: %i',
+    async (endCode) => {
+      const { run, plc } = bench([...entries, ['M0', true]])
+      plc.refuse = () => endCode
+      const results = await run()
+      expect(codes(results)).toEqual([endCode, endCode, endCode, 'ABORTED notSent'])
+      expect(errorOf(results[0]).outcome).toBe('unknown')
+      expect(plc.seen).toHaveLength(1)
+    },
+  )
+
+  // In MELSEC these numbers are about a device; of a JW only 02H and 11H are, and how far it wrote before it does not say.
+  test.each([0x02, 0x06, 0x11, 0x12])('is not written again for what a JW means by %i', async (endCode) => {
+    const { run } = bench(entries)
+    const refusal = new EndCodeError(endCode, 'refused', {
+      family: 'jw',
+      ...resultFacts.refusal(jwCommands.writeDataMemory, endCode),
+    })
+    let sent = 0
+    const send = (): Promise<never> => {
+      sent++
+      return Promise.reject(refusal)
+    }
+    expect(codes(await run(send))).toEqual([endCode, endCode, endCode])
+    expect(sent).toBe(1)
   })
 
   test('does not keep the next request from being sent', async () => {

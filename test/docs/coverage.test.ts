@@ -6,6 +6,7 @@ import { settle } from '../../src/client/melsec/options'
 import * as address from '../../src/entry/address'
 import * as codec from '../../src/entry/codec'
 import * as simulator from '../../src/entry/simulator'
+import { endCodeAbouts } from '../../src/errors'
 import * as library from '../../src/index'
 import type { Command } from '../../src/melsec/commands/command'
 import { commands } from '../../src/melsec/commands/commands'
@@ -117,7 +118,7 @@ describe('lists', () => {
 
   test('codes of errors are those in docs/errors.md', () => {
     const rows = [...proseOf('docs/errors.md').matchAll(/^\| `([A-Z_]+)` /gm)].map(([, code]) => code)
-    const lists = [...readText('src/errors.ts').matchAll(/^const [A-Z]+_CODES = \[([^\]]*)\]/gm)]
+    const lists = [...readText('src/errors.ts').matchAll(/^export const [A-Z]+_CODES = \[([^\]]*)\]/gm)]
     const listed = lists.flatMap(([, list = '']) => [...list.matchAll(/'(\w+)'/g)].map(([, code]) => code))
     expect(lists).toHaveLength(4)
     expect([...rows, 'END_CODE'].sort()).toEqual([...listed, ...unionOf('src/errors.ts', '\\w+ErrorCode')].sort())
@@ -126,7 +127,13 @@ describe('lists', () => {
   test('end codes in docs/errors.md have a text of their own', () => {
     const codes = namesIn('docs/errors.md', 'end codes')
     expect(codes.length).toBeGreaterThan(15)
-    expect(codes.filter((code) => explainEndCode(Number.parseInt(code, 16))?.exact !== true)).toEqual([])
+    expect(
+      codes.filter((code) => explainEndCode(Number.parseInt(code, 16), { family: 'slmp' })?.exact !== true),
+    ).toEqual([])
+  })
+
+  test('what an end code can be about is in docs/errors.md', () => {
+    expect(namesIn('docs/errors.md', 'about').sort()).toEqual([...endCodeAbouts].sort())
   })
 
   test('states of a connection are those in docs/client.md', () => {

@@ -1,5 +1,5 @@
 import { describe, expect, test } from '@jest/globals'
-import { RequestError } from '../../src/errors'
+import { type EndCodeFamily, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { devices, findDevice } from '../../src/melsec/device/device'
 import { limitsOf, pointFields } from '../../src/melsec/device/limit'
@@ -30,6 +30,11 @@ function caught(run: () => unknown): RequestError {
     throw error
   }
   throw new Error('nothing was thrown')
+}
+
+/** Whose numbers its end codes are. */
+function familyOf({ frames }: Profile): EndCodeFamily {
+  return frames.every((frame) => frame === '1E') ? '1E' : 'slmp'
 }
 
 /** Everything inside a value, itself included. */
@@ -126,9 +131,28 @@ describe('every profile', () => {
         ({ endCode }) => endCode,
       ),
     ]
-    for (const endCode of endCodes)
-      expect([endCode.toString(16), explainEndCode(endCode)?.exact]).toEqual([endCode.toString(16), true])
+    for (const endCode of endCodes) {
+      // Of remote passwords 1E knows nothing.
+      const family = endCode > 0xff ? 'slmp' : familyOf(profile)
+      const found = explainEndCode(endCode, { family })
+      expect([endCode.toString(16), found?.exact]).toEqual([endCode.toString(16), true])
+    }
   })
+
+  test.each(all)(
+    '$id: a request that is too large is refused with a code that is known to be about that',
+    (profile) => {
+      // One code stands for all that is wrong with a password.
+      const limits = profile.limits.filter(
+        ({ commands: names }) => !names.includes('unlock') && !names.includes('lock'),
+      )
+      const about = limits.map(({ endCode }) => [
+        endCode.toString(16),
+        explainEndCode(endCode, { family: familyOf(profile) })?.about,
+      ])
+      expect(about.filter(([, told]) => told !== 'size' && told !== 'item')).toEqual([])
+    },
+  )
 
   test.each(all)('$id: an absent device has no range; the ranges of one timer or counter are equal', (profile) => {
     const { points } = profile.ranges

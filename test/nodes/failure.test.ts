@@ -5,7 +5,15 @@ import { describe, expect, test } from '@jest/globals'
 import { detailsOf } from '../../nodes/failure'
 import type { Texts } from '../../nodes/texts'
 import { commands } from '../../src/entry/codec'
-import { EndCodeError, explainEndCode, type Language, languages, UnfinishedError } from '../../src/index'
+import {
+  type CommandName,
+  type EndCodeDetail,
+  EndCodeError,
+  explainEndCode,
+  type Language,
+  languages,
+  UnfinishedError,
+} from '../../src/index'
 import { root } from '../support/root'
 
 /** The shared catalogue of a language, as Node-RED fills it in. */
@@ -18,73 +26,93 @@ function textsIn(language: Language): Texts {
   }
 }
 
-function refused(endCode: number, command: string, abnormalCode?: number): EndCodeError {
-  const text = explainEndCode(endCode)
-  return new EndCodeError(endCode, `${command} was refused.`, {
-    command,
-    ...(abnormalCode === undefined ? {} : { abnormalCode }),
-    ...(text === undefined ? {} : { meaning: text.meaning, remedy: text.remedy }),
+const slmp = (code: number, language: Language = 'en-US') => explainEndCode(code, { family: 'slmp', language })
+
+function refused(endCode: number, commandName: CommandName, more: Partial<EndCodeDetail> = {}): EndCodeError {
+  const { title } = commands[commandName]
+  return new EndCodeError(endCode, `${title} was refused.`, {
+    family: 'slmp',
+    about: 'item',
+    carriedOut: false,
+    command: title,
+    commandName,
+    ...more,
   })
 }
 
 describe('an end code', () => {
   test.each(languages.filter((language) => language !== 'en-US'))('in %s: message, meaning and remedy', (language) => {
-    const { meaning = '', remedy = '' } = explainEndCode(0xc056, { language }) ?? {}
-    const details = detailsOf(refused(0xc056, 'Read (word units)'), textsIn(language))
+    const { meaning = '', remedy = '' } = slmp(0xc056, language) ?? {}
+    const details = detailsOf(refused(0xc056, 'readWords'), textsIn(language))
     expect(details).toMatchObject({ code: 'END_CODE', endCode: 0xc056, meaning, remedy })
     // The command by its name in the language; programs get the one of the manual.
     expect(details.message).toContain(textsIn(language)('command.readWords'))
-    expect(details).toMatchObject({ command: 'Read (word units)' })
+    expect(details).toMatchObject({
+      command: 'Read (word units)',
+      commandName: 'readWords',
+      family: 'slmp',
+      about: 'item',
+    })
     expect(details.message).toContain(`C056H`)
     expect(details.message).toContain(`${meaning} ${remedy}`)
     expect(details.message).not.toContain('__')
   })
 
   test("in English the message is the library's own", () => {
-    expect(detailsOf(refused(0xc056, 'Read (word units)'), textsIn('en-US')).message).toBe(
-      'Read (word units) was refused.',
-    )
+    expect(detailsOf(refused(0xc056, 'readWords'), textsIn('en-US')).message).toBe('Read (word units) was refused.')
   })
 
   test('of a command with a known cause tells it', () => {
-    const details = detailsOf(refused(0xc059, commands.executeMonitor.title), textsIn('ja'))
+    const details = detailsOf(refused(0xc059, 'executeMonitor'), textsIn('ja'))
     expect(details.meaning).toContain('モニタ登録がありません')
   })
 
   test('5BH of a 1E frame tells why', () => {
-    const details = detailsOf(refused(0x5b, 'Read', 0x18), textsIn('zh-CN'))
+    const details = detailsOf(refused(0x5b, 'readWords', { family: '1E', abnormalCode: 0x18 }), textsIn('zh-CN'))
     expect(details).toMatchObject({
       endCode: 0x5b,
       abnormalCode: 0x18,
       meaning: expect.stringContaining('远程RUN/STOP'),
     })
-    expect(details.remedy).toBe(explainEndCode(0x18, { language: 'zh-CN' })?.remedy)
+    expect(details.remedy).toBe(explainEndCode(0x18, { family: '1E', language: 'zh-CN' })?.remedy)
     expect(details.message).toContain('5BH, 18H')
   })
 
   test('nobody knows passes through: no text is made up', () => {
-    const details = detailsOf(refused(0x9999, 'Read'), textsIn('ja'))
+    const details = detailsOf(refused(0x9999, 'readWords', { about: 'unknown' }), textsIn('ja'))
     expect(details).toEqual({
       code: 'END_CODE',
-      message: 'Read was refused.',
+      message: 'Read (word units) was refused.',
       outcome: 'refused',
       endCode: 0x9999,
-      command: 'Read',
+      family: 'slmp',
+      about: 'unknown',
+      command: 'Read (word units)',
+      commandName: 'readWords',
     })
   })
 
   test('of a family whose numbers mean something else gets no text of this one', () => {
     // As a Sharp JW answers: 10H would be the PC No. error of a 1C frame.
-    const details = detailsOf(new EndCodeError(0x10, 'refused', { command: 'Read' }), textsIn('zh-TW'))
+    const details = detailsOf(refused(0x10, 'readWords', { family: 'jw' }), textsIn('zh-TW'))
     expect(details).not.toHaveProperty('meaning')
-    expect(details.message).toBe('refused')
+    expect(details).toMatchObject({ family: 'jw', message: 'Read (word units) was refused.' })
+  })
+
+  test('names the command by its name, whatever its title', () => {
+    const error = refused(0x56, 'readWords', { family: '1E', command: 'Batch read (word units)' })
+    expect(detailsOf(error, textsIn('ja')).message).toContain(textsIn('ja')('command.readWords'))
+    expect(detailsOf(error, textsIn('ja')).message).toContain('56H')
+    // A 1E frame has commands that the SLMP set does not have.
+    const other = refused(0x56, 'readWords', { family: '1E', commandName: 'loopback', command: 'Loopback test' })
+    expect(detailsOf(other, textsIn('ja')).message).toContain('Loopback test')
   })
 })
 
 test.each(languages)('what was begun and not finished says in %s why, but not that nothing was done', (language) => {
-  const cause = refused(0xc056, 'Write File')
+  const cause = refused(0xc056, 'writeFile')
   const error = new UnfinishedError('4:\\A.CSV: 1920 of its 4000 bytes are overwritten.', cause)
-  const { meaning, remedy } = explainEndCode(0xc056, { language }) ?? {}
+  const { meaning, remedy } = slmp(0xc056, language) ?? {}
   expect(detailsOf(error, textsIn(language))).toMatchObject({
     code: 'UNFINISHED',
     outcome: 'unknown',

@@ -124,7 +124,10 @@ describe('settings of a connection', () => {
 
 describe('a failure', () => {
   test('carries everything as plain data in its cause, which Node-RED copies', () => {
-    const failure = failureOf(new EndCodeError(0xc056, 'refused', { command: 'Read', station: 'own' }), texts)
+    const failure = failureOf(
+      new EndCodeError(0xc056, 'refused', { family: 'slmp', carriedOut: false, command: 'Read', station: 'own' }),
+      texts,
+    )
     expect(failure).toMatchObject({ code: 'END_CODE', outcome: 'refused', endCode: 0xc056 })
     expect(Object.getOwnPropertyNames(failure)).toEqual(expect.arrayContaining(['code', 'cause', 'stack']))
     expect(JSON.parse(JSON.stringify(failure.cause))).toMatchObject({

@@ -24,8 +24,9 @@ export function attemptFor<T>(name: string, run: () => T): T | PlcError {
 
 /**
  * Whether nothing behind a failed write may be sent, so that the order is kept: a flag must not be written when its data
- * was not. A refused or forbidden one says nothing about the next; everything else is about the connection.
+ * was not. A refused or forbidden one says nothing about the next; of everything else nobody knows how far it came.
  */
 export function stopsOrder(error: PlcError): boolean {
-  return !(error instanceof EndCodeError) && !(error instanceof RequestError)
+  const isRefused = error instanceof EndCodeError && error.outcome === 'refused'
+  return !isRefused && !(error instanceof RequestError)
 }

@@ -1,6 +1,6 @@
 // The requests of label access: names in as few as fit, apart again when the PLC refuses one of them.
 import type { DataCode } from '../../codec/codec'
-import { ClosedError, EndCodeError, PlcError, ProtocolError } from '../../errors'
+import { ClosedError, type EndCodeAbout, EndCodeError, PlcError, ProtocolError } from '../../errors'
 import type { Command, RequestOf, ResponseOf } from '../../melsec/commands/command'
 import { type CommandName, commands } from '../../melsec/commands/commands'
 import { limitsOf, requestBytes } from '../../melsec/device/limit'
@@ -115,16 +115,12 @@ export class LabelRequests {
       await read(some)
     } catch (error) {
       if (!(error instanceof PlcError)) throw error
-      if (some.length > 1 && this.#isAboutLabels(error)) {
+      if (some.length > 1 && isAboutLabels(error)) {
         const half = some.length >> 1
         await this.#apart(some.slice(0, half), read, failed)
         await this.#apart(some.slice(half), read, failed)
       } else for (const one of some) failed(one, error)
     }
-  }
-
-  #isAboutLabels(error: PlcError): boolean {
-    return error instanceof EndCodeError && error.endCode !== this.protocol.profile.refusals.command
   }
 
   /**
@@ -228,3 +224,10 @@ function arraysOf(writes: readonly LabelWrite[]) {
   )
   return { abbreviations, arrays }
 }
+
+/** Whether the PLC may read the other labels of the request. It answers a wrong length to a label of another type. */
+function isAboutLabels(error: PlcError): boolean {
+  return error instanceof EndCodeError && ABOUT_LABELS.has(error.about)
+}
+
+const ABOUT_LABELS: ReadonlySet<EndCodeAbout> = new Set(['item', 'size', 'request', 'unknown'])

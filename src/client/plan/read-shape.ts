@@ -1,12 +1,9 @@
 // Which requests a read plan consists of, and what refusals taught about them.
-
-import { type EndCodeError, RequestError } from '../../errors'
+import { type EndCodeAbout, type EndCodeError, RequestError } from '../../errors'
 import type { CommandName } from '../../melsec/commands/commands'
 import { commands } from '../../melsec/commands/commands'
 import type { AddressOptions } from '../../melsec/device/address'
 import type { Notation } from '../../melsec/device/json'
-import { limitsOf } from '../../melsec/device/limit'
-import { explainEndCode } from '../../melsec/end-codes/end-code'
 import { addressOptionsOf } from '../../melsec/profiles/profile'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
@@ -39,11 +36,11 @@ export interface Leaf {
   readonly outcome: 'read' | 'lost' | EndCodeError
 }
 
-/** Whether the end code may be about a single item of the request. A code no answer is known to carry may be. */
-function isAboutItems({ endCode }: EndCodeError): boolean {
-  const explained = explainEndCode(endCode)
-  return explained === undefined || !explained.exact || !explained.answer || explained.aboutDevice
-}
+/** What a smaller request may escape. A code nobody knows may be about a single item. */
+const MAY_HELP: ReadonlySet<EndCodeAbout> = new Set(['item', 'size', 'unknown'])
+
+/** What every request meets alike, however small. */
+const MEETS_ALL: ReadonlySet<EndCodeAbout> = new Set(['state', 'transmission'])
 
 /** After so many runs, items that were refused together are tried one by one again: the PLC may have been changed. */
 const TRY_AGAIN = 32
@@ -125,10 +122,8 @@ export class ReadShape {
   }
 
   /** Whether a smaller request may be answered: the end code is about a device, or about the size of the request. */
-  mayHelp({ prepared: { command, form } }: ReadStep, refusal: EndCodeError): boolean {
-    const { profile, code } = this.#protocol
-    const limits = limitsOf(profile, command, form, code)
-    return isAboutItems(refusal) || limits.some(({ endCode }) => endCode === refusal.endCode)
+  mayHelp(refusal: EndCodeError): boolean {
+    return MAY_HELP.has(refusal.about)
   }
 
   /**
@@ -138,7 +133,7 @@ export class ReadShape {
   divided(step: ReadStep, refusal: EndCodeError): readonly ReadStep[] {
     const { pieces, without, prepared } = step
     const { command } = prepared
-    if ((command === 'readRandom' || command === 'readBlock') && !this.mayHelp(step, refusal)) {
+    if ((command === 'readRandom' || command === 'readBlock') && !this.mayHelp(refusal)) {
       const parts = this.#built(pieces, { gap: this.#gap, without: new Set([...without, command]) }, 'settled')
       if (parts.every((part) => part.prepared.command !== command)) return parts
     }
@@ -164,6 +159,11 @@ export class ReadShape {
       if (error instanceof RequestError) return undefined
       throw error
     }
+  }
+
+  /** Whether the refusal says nothing about what was asked for: asking otherwise is of no use. */
+  isAboutPlc({ about: blamed }: EndCodeError): boolean {
+    return MEETS_ALL.has(blamed)
   }
 
   /** Whether all items of this request were refused one by one with this code, so that dividing it is of no use. */
@@ -196,7 +196,7 @@ export class ReadShape {
     if (step.stage !== 'planned' || read.length < 2) return read
     const pieces = read.flatMap((leaf) => leaf.pieces)
     const without = new Set(read.flatMap((leaf) => [...leaf.without]))
-    const gap = this.mayHelp(step, refusal) ? 0 : this.#gap
+    const gap = this.mayHelp(refusal) ? 0 : this.#gap
     return this.#built(pieces, { gap, without }, 'merged')
   }
 

@@ -66,6 +66,10 @@ export class DeviceRead {
     const outcome = await run.attempt(step)
     if (outcome === 'read') this.#shape.answered(step)
     if (!(outcome instanceof EndCodeError)) return
+    if (this.#shape.isAboutPlc(outcome)) {
+      run.give(step, outcome)
+      return
+    }
     if (this.#shape.isHopeless(step, outcome)) {
       run.fail(step, outcome)
       return
@@ -85,7 +89,7 @@ export class DeviceRead {
     for (const part of parts) tried.push({ step: part, outcome: await run.attempt(part, division) })
     // The same code for every part, and it is about none of them: the PLC is not ready, and asking more does not help.
     const same = tried.every(({ outcome }) => outcome instanceof EndCodeError && outcome.endCode === refusal.endCode)
-    const hopeless = same && !this.#shape.mayHelp(step, refusal)
+    const hopeless = same && !this.#shape.mayHelp(refusal)
     const leaves: Leaf[] = []
     for (const leaf of tried) {
       if (!(leaf.outcome instanceof EndCodeError)) leaves.push(leaf)

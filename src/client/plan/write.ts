@@ -5,7 +5,6 @@
 
 import { ClosedError, EndCodeError, PlcError, RequestError, type WriteResult } from '../../errors'
 import type { Notation } from '../../melsec/device/json'
-import { explainEndCode } from '../../melsec/end-codes/end-code'
 import { addressOptionsOf, type Profile } from '../../melsec/profiles/profile'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
@@ -213,7 +212,10 @@ class WriteRun {
     this.#allOrNothing = allOrNothing
   }
 
-  /** Sends one request. @returns the end code, when it was refused; other failures are given to the entries. */
+  /**
+   * Sends one request.
+   * @returns the end code, when it was refused; other failures, and what may have been carried out, are given to the entries
+   */
   async attempt(step: WriteStep, send: SendExchange): Promise<EndCodeError | undefined> {
     if (this.#stopped !== undefined) {
       this.#notSent(step, this.#stopped)
@@ -226,7 +228,7 @@ class WriteRun {
       for (const { entry, count } of step.units) this.#written.set(entry, (this.#written.get(entry) ?? 0) + count)
       return undefined
     } catch (error) {
-      if (error instanceof EndCodeError) return error
+      if (error instanceof EndCodeError && error.outcome === 'refused') return error
       if (!(error instanceof PlcError)) throw error
       if (stopsOrder(error)) this.#stopped = error
       this.fail(step, error)
@@ -235,8 +237,9 @@ class WriteRun {
   }
 
   /** Whether a refused request is written again, one entry at a time: it was not carried out, and one is to blame. */
-  goesOnApart({ units }: WriteStep, { endCode }: EndCodeError): boolean {
-    return units.length > 1 && !this.#allOrNothing && explainEndCode(endCode)?.aboutDevice === true
+  goesOnApart({ units }: WriteStep, { about: blamed, carriedOut }: EndCodeError): boolean {
+    const isOneToBlame = blamed === 'item' && carriedOut === false
+    return units.length > 1 && !this.#allOrNothing && isOneToBlame
   }
 
   fail(step: WriteStep, error: PlcError): void {

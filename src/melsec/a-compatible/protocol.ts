@@ -5,7 +5,8 @@ import { HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/
 import { checkAddress } from '../device/access'
 import { FORM_XY_OCTAL } from '../device/codec'
 import type { DeviceAddress } from '../device/device'
-import { explainEndCode } from '../end-codes/end-code'
+import { refusalTexts } from '../end-codes/end-code'
+import { factsOf } from '../end-codes/facts'
 import { frame1e, type Head1e } from '../frame/frame-1e'
 import { type ACompatibleCommandName, aCompatibleCommands } from './commands'
 import {
@@ -143,20 +144,15 @@ function sizeOf(value: unknown): number | undefined {
 }
 
 function refusal(code: DataCode, command: NamedCommand, frame: ResponseFrame): EndCodeError {
-  const abnormal = frame.body.length === 0 ? undefined : readerOf(code, frame.body).uint(1)
-  const text = explainEndCode(frame.endCode)
-  const reason = abnormal === undefined ? undefined : explainEndCode(abnormal)
-  const meaning = [text?.meaning, reason?.meaning].filter((part) => part !== undefined).join(' ')
-  const { remedy } = reason ?? text ?? {}
-  const what = `${command.title} was refused with end code ${hex(frame.endCode, 2)}H`
-  const why = abnormal === undefined ? '' : `, abnormal code ${hex(abnormal, 2)}H`
-  return new EndCodeError(
-    frame.endCode,
-    `${what}${why}: ${meaning === '' ? 'No text is known for this code.' : `${meaning} ${remedy ?? ''}`}`,
-    {
-      command: command.title,
-      ...(abnormal === undefined ? {} : { abnormalCode: abnormal }),
-      ...(meaning === '' ? {} : { meaning, remedy: remedy ?? '' }),
-    },
-  )
+  const { endCode } = frame
+  const abnormalCode = frame.body.length === 0 ? undefined : readerOf(code, frame.body).uint(1)
+  const { texts, sentences } = refusalTexts('1E', { endCode, abnormalCode, commandName: command.name })
+  const what = `${command.title} was refused with end code ${hex(endCode, 2)}H`
+  const why = abnormalCode === undefined ? '' : `, abnormal code ${hex(abnormalCode, 2)}H`
+  return new EndCodeError(endCode, `${what}${why}: ${sentences}`, {
+    family: '1E',
+    ...factsOf['1E'].refusal(command, abnormalCode ?? endCode),
+    ...(abnormalCode === undefined ? {} : { abnormalCode }),
+    ...texts,
+  })
 }

@@ -1,7 +1,54 @@
-// One-byte codes: end codes and abnormal codes of the 1E frame, NAK codes of the 1C frame. The families do not collide.
+// Two-digit codes: end codes and abnormal codes of the 1E frame, NAK codes of the 1C frame. Some numbers are in both.
 import { BACKGROUND, type EndCodeEntry, FX5_SERIAL } from './entry'
 
-export const aCompatibleEndCodes: readonly EndCodeEntry[] = [
+/** Answered with 3E frames, too. */
+export const onlineChangeOff: EndCodeEntry = {
+  code: 0x55,
+  meaning: [
+    'Writing while the CPU is in RUN is not enabled.',
+    'RUN中書込みが許可されていない状態で、RUN中のCPUへの書込みが要求されました。',
+    '未允许RUN中写入时，请求了对RUN中CPU的写入。',
+    '未允許RUN中寫入時，請求了對RUN中CPU的寫入。',
+  ],
+  remedy: 'enableOnlineChange',
+  source: BACKGROUND,
+}
+
+const noStation: EndCodeEntry = {
+  code: 0x10,
+  meaning: [
+    'There is no station with this PC No.',
+    '指定したPC番号の局が存在しません。',
+    '指定的PC编号的站不存在。',
+    '指定的PC編號的站不存在。',
+  ],
+  remedy: [
+    'Correct the PC No.; FFH is the connected station.',
+    'PC番号を修正してください。FFHは接続局です。',
+    '请修正PC编号。FFH为连接站。',
+    '請修正PC編號。FFH為連接站。',
+  ],
+  source: FX5_SERIAL,
+}
+
+const heldByOther: EndCodeEntry = {
+  code: 0x18,
+  meaning: [
+    'Remote RUN or STOP is not possible: another device holds the CPU in STOP or PAUSE.',
+    'リモートRUN/STOPができません。他の機器がリモートSTOP/PAUSEを実行中です。',
+    '无法远程RUN/STOP：其他设备正在执行远程STOP/PAUSE。',
+    '無法遠端RUN/STOP：其他裝置正在執行遠端STOP/PAUSE。',
+  ],
+  remedy: [
+    'Send remote RUN from the device that stopped the CPU.',
+    'リモートSTOPを行った機器からリモートRUNを実行してください。',
+    '请由执行远程STOP的设备执行远程RUN。',
+    '請由執行遠端STOP的裝置執行遠端RUN。',
+  ],
+  source: FX5_SERIAL,
+}
+
+export const endCodes1c: readonly EndCodeEntry[] = [
   {
     code: 0x02,
     meaning: ['Sum check error.', 'サムチェックエラーです。', '和校验错误。', '總和檢查錯誤。'],
@@ -28,7 +75,6 @@ export const aCompatibleEndCodes: readonly EndCodeEntry[] = [
       '字元區錯誤：軟元件不存在，或字元位數有誤。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: FX5_SERIAL,
   },
   {
@@ -42,22 +88,13 @@ export const aCompatibleEndCodes: readonly EndCodeEntry[] = [
     remedy: 'serialMessage',
     source: FX5_SERIAL,
   },
-  {
-    code: 0x10,
-    meaning: [
-      'There is no station with this PC No.',
-      '指定したPC番号の局が存在しません。',
-      '指定的PC编号的站不存在。',
-      '指定的PC編號的站不存在。',
-    ],
-    remedy: [
-      'Correct the PC No.; FFH is the connected station.',
-      'PC番号を修正してください。FFHは接続局です。',
-      '请修正PC编号。FFH为连接站。',
-      '請修正PC編號。FFH為連接站。',
-    ],
-    source: FX5_SERIAL,
-  },
+  noStation,
+  heldByOther,
+]
+
+export const endCodes1e: readonly EndCodeEntry[] = [
+  noStation,
+  heldByOther,
   {
     code: 0x11,
     meaning: [
@@ -78,24 +115,7 @@ export const aCompatibleEndCodes: readonly EndCodeEntry[] = [
       '指定的位置沒有特殊功能模組。',
     ],
     remedy: 'correctRequest',
-    aboutDevice: true,
     source: BACKGROUND,
-  },
-  {
-    code: 0x18,
-    meaning: [
-      'Remote RUN or STOP is not possible: another device holds the CPU in STOP or PAUSE.',
-      'リモートRUN/STOPができません。他の機器がリモートSTOP/PAUSEを実行中です。',
-      '无法远程RUN/STOP：其他设备正在执行远程STOP/PAUSE。',
-      '無法遠端RUN/STOP：其他裝置正在執行遠端STOP/PAUSE。',
-    ],
-    remedy: [
-      'Send remote RUN from the device that stopped the CPU.',
-      'リモートSTOPを行った機器からリモートRUNを実行してください。',
-      '请由执行远程STOP的设备执行远程RUN。',
-      '請由執行遠端STOP的裝置執行遠端RUN。',
-    ],
-    source: FX5_SERIAL,
   },
   {
     code: 0x50,
@@ -124,22 +144,11 @@ export const aCompatibleEndCodes: readonly EndCodeEntry[] = [
     remedy: 'dataCode',
     source: BACKGROUND,
   },
-  {
-    code: 0x55,
-    meaning: [
-      'Writing while the CPU is in RUN is not enabled.',
-      'RUN中書込みが許可されていない状態で、RUN中のCPUへの書込みが要求されました。',
-      '未允许RUN中写入时，请求了对RUN中CPU的写入。',
-      '未允許RUN中寫入時，請求了對RUN中CPU的寫入。',
-    ],
-    remedy: 'enableOnlineChange',
-    source: BACKGROUND,
-  },
+  onlineChangeOff,
   {
     code: 0x56,
     meaning: ['The device is wrong.', 'デバイスの指定に誤りがあります。', '软元件的指定有误。', '軟元件的指定有誤。'],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {
@@ -151,7 +160,6 @@ export const aCompatibleEndCodes: readonly EndCodeEntry[] = [
       '點數超出範圍，或超過最大軟元件編號，或報文過短。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {
@@ -163,7 +171,6 @@ export const aCompatibleEndCodes: readonly EndCodeEntry[] = [
       '起始軟元件編號超出範圍，或軟元件與指令不符（位元/字單位、16的倍數）。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {

@@ -132,7 +132,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '無法處理指定的軟元件名稱。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: FX5_ETHERNET,
   },
   {
@@ -144,7 +143,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '指定的軟元件編號超出範圍，或對象CPU無法處理該軟元件。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: FX5_ETHERNET,
   },
   {
@@ -161,7 +159,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '请以位为单位读写，并检查修饰（变址、位数指定）。',
       '請以位元為單位讀寫，並檢查修飾（變址、位數指定）。',
     ],
-    aboutDevice: true,
     source: FX5_ETHERNET,
   },
   {
@@ -178,7 +175,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '请勿写入该软元件。',
       '請勿寫入該軟元件。',
     ],
-    aboutDevice: true,
     source: FX5_ETHERNET,
   },
   {
@@ -190,7 +186,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '專用指令的完成軟元件無法置ON，無法執行請求。',
     ],
     remedy: 'program',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {
@@ -202,7 +197,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '指定的智慧功能模組無法執行該請求。',
     ],
     remedy: 'correctRequest',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {
@@ -219,7 +213,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '请检查缓冲存储器地址和点数。',
       '請檢查緩衝記憶體位址和點數。',
     ],
-    aboutDevice: true,
     source: FX5_ETHERNET,
   },
   {
@@ -236,7 +229,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '请检查模块的安装、动作和起始I/O编号。',
       '請檢查模組的安裝、動作和起始I/O編號。',
     ],
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {
@@ -253,7 +245,6 @@ export const cpuEndCodes: readonly EndCodeEntry[] = [
       '请修正模块编号（去掉末位的起始I/O编号）或网络号。',
       '請修正模組編號（去掉末位的起始I/O編號）或網路號。',
     ],
-    aboutDevice: true,
     source: `${FX5_ETHERNET}; without the network measured by others on L02S`,
   },
   {

@@ -10,8 +10,6 @@ export interface EndCodeEntry {
   readonly meaning: Texts
   /** What to do: an own text, or one that many codes share. */
   readonly remedy: Texts | RemedyName
-  /** It is about a device or address of one item: the other items of a merged request may well be readable. */
-  readonly aboutDevice?: true
   readonly source: string
 }
 

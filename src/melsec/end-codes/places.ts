@@ -1,12 +1,13 @@
 // Where a code is seen: in an answer, or only in a register or history of the PLC. The lists are the tables of the FX5
 // communication manual (section 47); 4000H to 4FFFH and what FX5 lacks are answered by Q, L and iQ-R modules, too.
+import type { Codes } from '../../link/link'
+import type { MelsecEndCodeFamily } from './family'
 import type { Texts } from './texts'
-
-/** One code, or the first and last of a range. */
-type Codes = readonly (number | readonly [from: number, to: number])[]
 
 export interface EndCodePlace {
   readonly name: string
+  /** Default `slmp`. */
+  readonly family?: MelsecEndCodeFamily
   /** What kind of code it is and where it is found, in whole sentences. */
   readonly text: Texts
   /** The answer to a request carries it. */
@@ -70,6 +71,7 @@ export const endCodePlaces: readonly EndCodePlace[] = [
     answer: true,
     codes: [
       0x0000,
+      0x0055,
       [0x4000, 0x4fff],
       0xc035,
       0xc040,
@@ -96,6 +98,7 @@ export const endCodePlaces: readonly EndCodePlace[] = [
   },
   {
     name: '1E',
+    family: '1E',
     text: [
       'End code or abnormal code in the answer to a request with 1E frame.',
       '1Eフレームの応答に入る終了コードまたは異常コードです。',
@@ -103,10 +106,11 @@ export const endCodePlaces: readonly EndCodePlace[] = [
       '1E訊框的回應中的結束代碼或異常代碼。',
     ],
     answer: true,
-    codes: [0x0000, 0x10, 0x11, 0x12, 0x18, 0x50, [0x54, 0x58], 0x5b, 0x60],
+    codes: [0x10, 0x11, 0x12, 0x18, 0x50, [0x54, 0x58], 0x5b, 0x60],
   },
   {
     name: '1C',
+    family: '1C',
     text: [
       'Error code (two digits) of a NAK answer with 1C frame.',
       '1CフレームのNAK応答に入るエラーコード(2桁)です。',
@@ -344,8 +348,9 @@ export const endCodePlaces: readonly EndCodePlace[] = [
 ]
 
 /** Every place a code is seen in; none for a code no list holds. */
-export function placesOf(code: number): readonly EndCodePlace[] {
-  return endCodePlaces.filter(({ codes }) =>
+export function placesOf(family: MelsecEndCodeFamily, code: number): readonly EndCodePlace[] {
+  const ofFamily = endCodePlaces.filter((place) => (place.family ?? 'slmp') === family)
+  return ofFamily.filter(({ codes }) =>
     codes.some((entry) => (typeof entry === 'number' ? entry === code : entry[0] <= code && code <= entry[1])),
   )
 }

@@ -126,7 +126,6 @@ export const routeAndPasswordEndCodes: readonly EndCodeEntry[] = [
       '軟元件編號的指定有誤。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {
@@ -138,7 +137,6 @@ export const routeAndPasswordEndCodes: readonly EndCodeEntry[] = [
       '軟元件名稱的指定有誤。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {

@@ -33,7 +33,6 @@ export const serialEndCodes: readonly EndCodeEntry[] = [
       '起始軟元件編號超出範圍。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: FX5_SERIAL,
   },
   {
@@ -72,7 +71,6 @@ export const serialEndCodes: readonly EndCodeEntry[] = [
       '請求內容或軟元件的指定方法有誤。',
     ],
     remedy: 'serialMessage',
-    aboutDevice: true,
     source: FX5_SERIAL,
   },
   {
@@ -139,7 +137,6 @@ export const serialEndCodes: readonly EndCodeEntry[] = [
       '軟元件不存在，或該指令不能指定此軟元件。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: FX5_SERIAL,
   },
   {
@@ -184,7 +181,6 @@ export const serialEndCodes: readonly EndCodeEntry[] = [
       '指令或軟元件不存在，或遠端口令的長度有誤。',
     ],
     remedy: 'serialMessage',
-    aboutDevice: true,
     source: FX5_SERIAL,
   },
   {

@@ -99,7 +99,6 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
       '讀寫請求超過最大位址。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: FX5_SLMP,
   },
   {
@@ -144,7 +143,6 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
       '該模組無法讀寫指定的軟元件。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {
@@ -156,7 +154,6 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
       '無法對指定的軟元件進行讀寫，或該指令不能指定此軟元件。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: FX5_SLMP,
   },
   {
@@ -168,7 +165,6 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
       '請求內容有誤（以位元為單位存取字軟元件、軟元件不存在等）。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: `${FX5_SLMP}; absent devices measured by others on FX5U`,
   },
   {
@@ -223,7 +219,6 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
       '請求內容有誤（位元軟元件的資料指定、U\\G的模組不存在等）。',
     ],
     remedy: 'correctRequest',
-    aboutDevice: true,
     source: `${FX5_SLMP}; absent module measured by others on FX5U`,
   },
   {
@@ -262,7 +257,6 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
       '请经由以太网模块（E71）访问，或在PLC程序中将数据传送到其他软元件。',
       '請經由乙太網路模組（E71）存取，或在PLC程式中將資料傳送到其他軟元件。',
     ],
-    aboutDevice: true,
     source: `${BACKGROUND}; measured by others on QnUDV and LCPU`,
   },
   {
@@ -285,7 +279,6 @@ export const slmpEndCodes: readonly EndCodeEntry[] = [
       '請求內容與軟元件不符（以位元為單位存取字軟元件等）。',
     ],
     remedy: 'correctDevice',
-    aboutDevice: true,
     source: BACKGROUND,
   },
   {

@@ -1,5 +1,6 @@
 // All texts together. Loaded when the first code is explained (end-code.ts): most programs never meet one.
-import { aCompatibleEndCodes } from './a-compatible'
+import { each } from '../../link/link'
+import { endCodes1c, endCodes1e, onlineChangeOff } from './a-compatible'
 import { cpuEndCodes } from './cpu'
 import { cpuFileEndCodes } from './cpu-file'
 import { cpuRouteEndCodes } from './cpu-route'
@@ -8,6 +9,7 @@ import { ethernetEndCodes } from './ethernet'
 import { ethernetFunctionEndCodes } from './ethernet-function'
 import { ethernetModuleEndCodes } from './ethernet-module'
 import { ethernetModuleParameterEndCodes } from './ethernet-module-parameter'
+import type { MelsecEndCodeFamily } from './family'
 import { inverterEndCodes } from './inverter'
 import { operationEndCodes } from './operation'
 import { routeAndPasswordEndCodes } from './route-and-password'
@@ -20,29 +22,40 @@ export { endCodeHints } from './hints'
 export { placesOf } from './places'
 export { remedies } from './remedies'
 
-export const endCodeEntries: readonly EndCodeEntry[] = [
-  ...slmpEndCodes,
-  ...routeAndPasswordEndCodes,
-  ...cpuEndCodes,
-  ...cpuRouteEndCodes,
-  ...cpuFileEndCodes,
-  ...aCompatibleEndCodes,
-  ...serialEndCodes,
-  ...serialFunctionEndCodes,
-  ...inverterEndCodes,
-  ...operationEndCodes,
-  ...ethernetEndCodes,
-  ...ethernetFunctionEndCodes,
-  ...ethernetModuleEndCodes,
-  ...ethernetModuleParameterEndCodes,
-]
+/** By family. */
+export const endCodeEntries: Readonly<Record<MelsecEndCodeFamily, readonly EndCodeEntry[]>> = {
+  slmp: [
+    onlineChangeOff,
+    ...slmpEndCodes,
+    ...routeAndPasswordEndCodes,
+    ...cpuEndCodes,
+    ...cpuRouteEndCodes,
+    ...cpuFileEndCodes,
+    ...serialEndCodes,
+    ...serialFunctionEndCodes,
+    ...inverterEndCodes,
+    ...operationEndCodes,
+    ...ethernetEndCodes,
+    ...ethernetFunctionEndCodes,
+    ...ethernetModuleEndCodes,
+    ...ethernetModuleParameterEndCodes,
+  ],
+  '1E': endCodes1e,
+  '1C': endCodes1c,
+}
 
 /** Entries by code; a range under every code of it. */
-export const entryByCode: ReadonlyMap<number, EndCodeEntry> = new Map(
-  endCodeEntries.flatMap((entry) =>
-    Array.from(
-      { length: (entry.to ?? entry.code) - entry.code + 1 },
-      (_, index) => [entry.code + index, entry] as const,
-    ),
-  ),
-)
+export const entryByCode: Readonly<Record<MelsecEndCodeFamily, ReadonlyMap<number, EndCodeEntry>>> = {
+  slmp: byCode(endCodeEntries.slmp),
+  '1E': byCode(endCodes1e),
+  '1C': byCode(endCodes1c),
+}
+
+function byCode(entries: readonly EndCodeEntry[]): ReadonlyMap<number, EndCodeEntry> {
+  return new Map(
+    entries.flatMap((entry) => {
+      const codes = each([[entry.code, entry.to ?? entry.code]])
+      return codes.map((code) => [code, entry] as const)
+    }),
+  )
+}

@@ -148,7 +148,7 @@ function takeDummy(explainer: Explainer, code: DataCode, { values }: Message): v
 
 function explainAbnormalCode(explainer: Explainer): void {
   if (explainer.remaining === 0) return
-  explainer.read({ abnormalCode: u8() }, ({ value }) => endCodeText(Number(value), 2).replace(' (refused)', ':'))
+  explainer.read({ abnormalCode: u8() }, ({ value }) => endCodeText('1E', Number(value)).replace(' (refused)', ':'))
 }
 
 /** FX3 modules send it, the FX5 manual prints none. */
@@ -169,7 +169,7 @@ function explainResponse(
     explainer.notes.push('The frame given as request is no request that can be read.')
   }
   const head = explainer.read(responseHead, (leaf) =>
-    leaf.name === 'endCode' ? endCodeText(Number(leaf.value), 2) : describe1e(leaf),
+    leaf.name === 'endCode' ? endCodeText('1E', Number(leaf.value)) : describe1e(leaf),
   )
   const about = {
     frame: '1E',

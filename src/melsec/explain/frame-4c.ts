@@ -159,7 +159,7 @@ function explainContent(
     explainer.notes.push('The frame given as request is no request that can be read.')
   }
   const { endCode } = explainer.read(responseFields, (leaf) =>
-    leaf.name === 'endCode' ? endCodeText(Number(leaf.value), 4, asked?.command.name) : describeHead(leaf),
+    leaf.name === 'endCode' ? endCodeText('slmp', Number(leaf.value), asked?.command.name) : describeHead(leaf),
   )
   const known = asked === undefined ? {} : { command: asked.command.name }
   if (endCode !== 0) {

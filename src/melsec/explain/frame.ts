@@ -223,7 +223,9 @@ function explainResponse(
   const registered = requestOf(explainer, options.registration, settings, undefined, 'registration')
   const command = asked?.command
   const about = aboutOf(command)
-  const { endCode } = explainer.read({ endCode: u16() }, ({ value }) => endCodeText(Number(value), 4, command?.name))
+  const { endCode } = explainer.read({ endCode: u16() }, ({ value }) =>
+    endCodeText('slmp', Number(value), command?.name),
+  )
   if (typeof endCode !== 'number') return { title: 'cut short', secret: false, about }
   if (endCode === 0) {
     const { title, secret, command: answered } = explainResponseBody(explainer, settings, asked, registered)

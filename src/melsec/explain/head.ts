@@ -3,10 +3,9 @@
 import { hex } from '../../basics/hex'
 import type { Leaf } from '../../codec/annotate'
 import type { Declaration } from '../../codec/codec'
-import type { CommandName } from '../commands/commands'
 import type { DeviceForm } from '../device/device-form'
 import { readSubcommand } from '../device/form'
-import { explainEndCode } from '../end-codes/end-code'
+import { explained, type MelsecEndCodeFamily } from '../end-codes/end-code'
 import { moduleIoNumbers, ownStation } from '../frame/route'
 
 /** A field of a head in words, by its name; `undefined` for one that is no field of a head. */
@@ -56,14 +55,17 @@ function moduleIoText(value: number): string {
   return `${hex(value, 4)}H (${named?.title ?? `start I/O number ${hex(value, 3)}0H`})`
 }
 
-/** An end code in words: meaning, likely cause, remedy. `digits`: 4, in a 1E frame 2. */
-export function endCodeText(endCode: number, digits: number, command?: string): string {
-  const code = `${hex(endCode, digits)}H`
+/** An end code in words: meaning, likely cause, remedy. */
+export function endCodeText(family: MelsecEndCodeFamily, endCode: number, commandName?: string): string {
+  const code = `${hex(endCode, family === 'slmp' ? 4 : 2)}H`
   if (endCode === 0) return `${code} (carried out)`
-  // Names of other command sets have no hints: asking with one finds none.
-  const text = explainEndCode(endCode, command === undefined ? {} : { command: command as CommandName })
-  if (text === undefined) return `${code} (refused; no text is known for this code)`
-  return [`${code} (refused)`, text.meaning, ...(text.cause === undefined ? [] : [text.cause]), text.remedy].join(' ')
+  return `${code} (refused${textOf(family, endCode, commandName)}`
+}
+
+function textOf(family: MelsecEndCodeFamily, endCode: number, commandName: string | undefined): string {
+  const text = explained(family, { endCode, commandName })
+  if (text === undefined) return '; no text is known for this code)'
+  return [')', text.meaning, ...(text.cause === undefined ? [] : [text.cause]), text.remedy].join(' ')
 }
 
 const FORM_TEXT: Readonly<Record<DeviceForm, string>> = {

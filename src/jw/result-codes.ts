@@ -1,0 +1,32 @@
+// What the result codes of a JW are about (JW300 manual, result codes). MELSEC uses most of these numbers for something else.
+import { type EndCodeTable, endCodeFacts } from '../link/link'
+
+export const resultCodes: EndCodeTable = {
+  about: {
+    item: [
+      0x02, // no preset of a timer, counter or MD
+      0x04, // set or reset of an MD
+      0x11, // not in the program area
+      0x21, // an operand word
+    ],
+    command: [0x34, 0x39], // the model has no clock; I/O command on a ZW
+    request: [0x01, [0x22, 0x26], 0x32, 0x38, 0x52],
+    state: [
+      0x06, // the PLC is not stopped
+      0x07, // nothing was written
+      0x0e, // the program memory is protected
+      0x10, // the write mode does not allow it
+      0x12, // the memory is a ROM
+      0x13, // the PLC is stopped
+      [0x30, 0x31], // password
+      0x33,
+      [0x40, 0x44], // ring buffer
+      [0x48, 0x4c], // specified buffer
+    ],
+  },
+  // The manual does not say whether what stands before a refused address was written. 08H (capacity), 0FH (the memory did
+  // not answer in time), 1BH and 53H (system memory) do not say how far it came either: they stand nowhere.
+  perhapsCarriedOut: [0x02, 0x04, 0x11, 0x21],
+}
+
+export const resultFacts = endCodeFacts(resultCodes)
