@@ -69,13 +69,29 @@ function spanOfEcho(of: string, known: Measured): number {
 
 function spanOfList(item: Shape, own: unknown, count: number, known: Measured): number {
   const { message: _, ...rest } = known
-  if (Array.isArray(own)) {
+  if (Array.isArray(own) && !isFixed(item)) {
     return (own as readonly Message[]).reduce(
       (total, element) => total + measure(item, { ...rest, message: element }),
       0,
     )
   }
   return count * measure(item, rest)
+}
+
+const fixed = new WeakMap<Shape, boolean>()
+
+/** Whether every message of the shape is as long as any other. Kept per shape. */
+function isFixed(shape: Shape): boolean {
+  let isIt = fixed.get(shape)
+  if (isIt === undefined) {
+    isIt = Object.values(shape).every((field) => {
+      const { kind } = field
+      if (kind === 'value') return field.codec.variable !== true
+      return kind === 'u8' || kind === 'u16' || kind === 'u32' || kind === 'fixed' || kind === 'spare'
+    })
+    fixed.set(shape, isIt)
+  }
+  return isIt
 }
 
 function bulkSize(kind: BulkField['kind'], count: number, ascii: boolean): number {

@@ -3,6 +3,7 @@ import type { DataCode } from '../codec/codec'
 import type { ProtocolError } from '../errors'
 import type { AnswerFraming, Exchange, FrameExplainer, RequestFrame } from '../link/link'
 import type { Command, RequestOf, ResponseOf } from './commands/command'
+import type { DeviceForm } from './device/device-form'
 import type { FrameName } from './frame/frames'
 import type { Route } from './frame/route'
 import type { Profile } from './profiles/profile'
@@ -42,6 +43,13 @@ export interface ClientProtocol {
    * @throws RequestError with what is wrong, where, and what to do
    */
   exchange<C extends Command>(command: C, message: RequestOf<C>, options?: ExchangeOptions): Exchange<ResponseOf<C>>
+  /**
+   * Refuses what `exchange` would refuse, as far as addresses and limits go, without making the request.
+   * @throws RequestError as `exchange`
+   */
+  check<C extends Command>(command: C, message: RequestOf<C>): void
+  /** Bytes of the bodies of a request in this form and of a success, without writing them. */
+  bodyBytes<C extends Command>(command: C, message: RequestOf<C>, form: DeviceForm): number
   /** Reads a frame that came unasked; absent where none ever does. */
   readonly readUnasked?: (frame: RequestFrame) => UnaskedFrame
   /** Bytes of the frame of an answer with this body. */

@@ -168,6 +168,26 @@ export class SlmpCommandSet {
     }
   }
 
+  /**
+   * Refuses what `exchange` would refuse, as far as addresses and limits go, without making the request.
+   * @throws RequestError as `exchange`
+   */
+  check<C extends Command>(command: C, message: RequestOf<C>): void {
+    const form = this.#formOf(command, message, {})
+    checkLimits(this.profile, command.name as CommandName, form, this.code, message)
+    checkTarget(this.profile, command, message, this.#moduleIo)
+  }
+
+  /** Bytes of the bodies of a request in this form and of a success, without writing them. */
+  bodyBytes<C extends Command>(command: C, message: RequestOf<C>, form: DeviceForm): number {
+    const bits = codecBits(command, form, subcommandOf(command, form, this.profile)) | this.#digitBits
+    const known = { ascii: this.code === 'ascii', form: bits }
+    const context = { shape: command.request, message }
+    return (
+      this.dataAt + measure(command.request, { ...known, message }) + measure(command.response, { ...known, context })
+    )
+  }
+
   #formOf(command: Command, message: Message, options: ExchangeOptions): DeviceForm {
     const found = devicesOf(command, message)
     if (this.#unknownDigits.length > 0) this.#refuseUnknownDigits(found.map(({ address }) => address.device))

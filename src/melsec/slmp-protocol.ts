@@ -32,6 +32,8 @@ export function slmpProtocol(options: SlmpOptions): ClientProtocol {
     profile,
     code,
     exchange: (command, message, given) => protocol.exchange(command, message, given),
+    check: (command, message) => protocol.check(command, message),
+    bodyBytes: (command, message, form) => protocol.bodyBytes(command, message, form),
     readUnasked: (unasked) => read(framing, options, unasked),
     answerBytes: (body) => protocol.answerBytes(body),
     explainer: (shownAs) => slmpExplainer({ ...options, ...shownAs }),

@@ -225,6 +225,19 @@ function listOfTypes(): string {
  * @example parseType('string(20)') // { name: 'STRING', length: 20 }
  */
 export function parseType(text: string): ValueType {
+  const known = parsed.get(text)
+  if (known !== undefined) return { ...known }
+  const type = parsedType(text)
+  if (parsed.size >= MOST_PARSED) parsed.clear()
+  parsed.set(text, type)
+  return { ...type }
+}
+
+/** Types by their texts: a list of items says the same few again and again. A program must not fill the memory. */
+const parsed = new Map<string, ValueType>()
+const MOST_PARSED = 200
+
+function parsedType(text: string): ValueType {
   if (typeof text !== 'string') throw badType(`a type is a text such as REAL, not ${typeof text}`)
   const [, word = '', digits] = /^([^()]*)(?:\(\s*(\d+)\s*\))?$/.exec(text.normalize('NFKC').trim()) ?? []
   const spelling = spellingOf(word)

@@ -109,8 +109,15 @@ function parsedItem(item: Item, given: ItemOptions, options: ItemParseOptions): 
   if (count !== undefined) checkCount(count, device, fail)
   checkEnd(count ?? 1, device, type, fail)
   const format = formatOf(given, options.format ?? {})
-  const parsed = { ...device, type, ...(count === undefined ? {} : { count }), format }
-  return { text: typeof item === 'string' ? item : formatItem(parsed, options), ...parsed }
+  const text = typeof item === 'string' ? item : formatItem({ ...device, type, ...counted(count) }, options)
+  const { address, bit, digits } = device
+  // The usual item, written out: a list has hundreds of it.
+  if (bit === undefined && digits === undefined && count === undefined) return { text, address, type, format }
+  return { text, ...device, type, ...counted(count), format }
+}
+
+function counted(count: number | undefined): Pick<ParsedItem, 'count'> {
+  return count === undefined ? {} : { count }
 }
 
 /** As `parseItem`, with the error instead of the item: for lists in which one bad item must not spoil the others. */
@@ -183,6 +190,7 @@ interface Parts {
 export const LABEL_PREFIX = /^\s*label:/i
 
 function splitText(text: string, fail: Fail): Parts {
+  if (ALONE.test(text)) return { first: text }
   if (LABEL_PREFIX.test(text)) fail('UNSUPPORTED', 'a label is no device: a client of a PLC with labels takes it.')
   const [, device = '', type] = /^([^:]*)(?::(.*))?$/s.exec(text) ?? []
   const [, counted = '', digits] = /^(.*?)(?:\[\s*(\d+)\s*\])?$/s.exec(type ?? device) ?? []
@@ -205,6 +213,9 @@ function splitText(text: string, fail: Fail): Parts {
     ...(digits === undefined ? {} : { count: Number(digits) }),
   }
 }
+
+/** A device and nothing behind it. */
+const ALONE = /^[^:,.[\]]*$/
 
 /** A count behind a comma, as other drivers have it. Behind the bit of a word it may be another bit. */
 const COUNTED = /^([^.,]+),\s*(0|[1-9]\d*)\s*$/
@@ -233,23 +244,23 @@ function onlyOne<T extends string | number>(
 /** Why a device has no values of a type, and what to write instead. */
 function typeProblem({ address, bit, digits }: ParsedDevice, type: ValueType): string | undefined {
   const info = deviceInfo(address.device)
-  const name = formatType(type)
-  const what = `${info.name} (${info.title})`
+  const isBit = type.name === 'BOOL'
   if (bit !== undefined) {
-    return type.name === 'BOOL' ? undefined : `one bit of a word is a BOOL, not a ${name}: leave .${hex(bit)} out.`
+    return isBit ? undefined : `one bit of a word is a BOOL, not a ${formatType(type)}: leave .${hex(bit)} out.`
   }
   if (digits !== undefined) return digitsProblem(digits, type)
   if (info.unit === 'bit') {
-    if (type.name === 'BOOL') return undefined
-    return `${what} is a bit device, so its values are BOOL; for a number of 16 bits write K4${info.name}..., for 32 bits K8${info.name}....`
+    if (isBit) return undefined
+    return `${info.name} (${info.title}) is a bit device, so its values are BOOL; for a number of 16 bits write K4${info.name}..., for 32 bits K8${info.name}....`
   }
-  if (type.name === 'BOOL')
-    return `${what} has words, not bits: name the bit, e.g. ${info.name}100.0 to ${info.name}100.F.`
+  if (isBit) {
+    return `${info.name} (${info.title}) has words, not bits: name the bit, e.g. ${info.name}100.0 to ${info.name}100.F.`
+  }
   if (info.unit === 'doubleWord' && !DOUBLE_WORD_TYPES.includes(type.name)) {
-    return `${what} has 32 bits, so its values are ${DOUBLE_WORD_TYPES.join(', ')}, not ${name}.`
+    return `${info.name} (${info.title}) has 32 bits, so its values are ${DOUBLE_WORD_TYPES.join(', ')}, not ${formatType(type)}.`
   }
   if (address.indirect === true && wordsOf(type) > 2) {
-    return `@ reaches the one or two words whose address stands in ${info.name}${address.number}; ${name} has ${wordsOf(type)}.`
+    return `@ reaches the one or two words whose address stands in ${info.name}${address.number}; ${formatType(type)} has ${wordsOf(type)}.`
   }
   return undefined
 }
@@ -320,13 +331,16 @@ function checkEnd(count: number, device: ParsedDevice, type: ValueType, fail: Fa
 }
 
 function formatOf({ wordOrder, byteOrder, encoding, trim }: ItemOptions, usual: ValueFormat): ValueFormat {
-  const format: ValueFormat = {
-    ...usual,
-    ...(wordOrder === undefined ? {} : { wordOrder }),
-    ...(byteOrder === undefined ? {} : { byteOrder }),
-    ...(encoding === undefined ? {} : { encoding }),
-    ...(trim === undefined ? {} : { trimSpaces: trim }),
-  }
+  const isUsual = wordOrder === undefined && byteOrder === undefined && encoding === undefined && trim === undefined
+  const format: ValueFormat = isUsual
+    ? usual
+    : {
+        ...usual,
+        ...(wordOrder === undefined ? {} : { wordOrder }),
+        ...(byteOrder === undefined ? {} : { byteOrder }),
+        ...(encoding === undefined ? {} : { encoding }),
+        ...(trim === undefined ? {} : { trimSpaces: trim }),
+      }
   checkFormat(format)
   return format
 }

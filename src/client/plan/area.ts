@@ -5,7 +5,7 @@ import type { DeviceUse } from '../../melsec/device/access'
 import { formatDevice } from '../../melsec/device/address'
 import { type DeviceAddress, type DeviceInfo, deviceInfo } from '../../melsec/device/device'
 import type { DeviceForm } from '../../melsec/device/device-form'
-import { chooseForm } from '../../melsec/device/form'
+import { type FormProblem, formOrProblem } from '../../melsec/device/form'
 import { tallyOf } from '../../melsec/device/limit'
 import { doubtOf, type Profile } from '../../melsec/profiles/profile'
 import { boundsOf, fits, type Load, largest, type PlanProtocol } from './limit'
@@ -46,7 +46,7 @@ export function isModified({ index, indirect, extensionIndex }: DeviceAddress): 
 }
 
 /** In a network module or a buffer memory, or modified: such addresses never share a request with ordinary ones. */
-function isExtended(address: DeviceAddress): boolean {
+export function isExtended(address: DeviceAddress): boolean {
   return address.extension !== undefined || isModified(address)
 }
 
@@ -64,7 +64,7 @@ export function wordsPerCell(area: Area): number {
   return area.bitsPerCell / 16
 }
 
-type Try = (use: DeviceUse) => DeviceForm | RequestError
+type Try = (use: DeviceUse) => DeviceForm | FormProblem
 
 /** What is modified has no known neighbours: each address is an area of its own. */
 export function areaKey(kind: CellKind, address: DeviceAddress): string {
@@ -95,13 +95,8 @@ function countedTwice({ limits }: Profile, { name }: DeviceInfo): boolean {
   return limits.some(({ twice }) => twice?.includes(name) === true)
 }
 
-function tried(protocol: PlanProtocol, address: DeviceAddress, use: DeviceUse): DeviceForm | RequestError {
-  try {
-    return chooseForm(protocol.profile, commands[use.command], [{ path: '', address, use }], protocol.code, 0)
-  } catch (error) {
-    if (error instanceof RequestError) return error
-    throw error
-  }
+function tried(protocol: PlanProtocol, address: DeviceAddress, use: DeviceUse): DeviceForm | FormProblem {
+  return formOrProblem(protocol.profile, commands[use.command], [{ path: '', address, use }], protocol.code, 0)
 }
 
 const USES = {
@@ -122,7 +117,7 @@ function waysOf(protocol: PlanProtocol, direction: Direction, kind: CellKind, ad
       ? undefined
       : attempt({ command: randomCommand, ...(kind === 'bit' ? {} : ({ list } as const)) })
   const form = formIn(direct) ?? formIn(random)
-  if (form === undefined) throw isModified(address) && random !== undefined ? random : direct
+  if (form === undefined) throw refusalOf(isModified(address) ? [random, direct] : [direct, random])
   const freely = randomCommand === undefined || chosenFreely(protocol, randomCommand, direct)
   const hasBlock = direction === 'read' && formIn(direct) !== undefined
   const block = hasBlock ? blockOf(protocol, kind, info, form, attempt) : undefined
@@ -134,13 +129,20 @@ function waysOf(protocol: PlanProtocol, direction: Direction, kind: CellKind, ad
   }
 }
 
-function formIn(result: DeviceForm | RequestError | undefined): DeviceForm | undefined {
-  return result instanceof RequestError ? undefined : result
+type Tried = ReturnType<Try> | undefined
+
+function formIn(result: Tried): DeviceForm | undefined {
+  return typeof result === 'string' ? result : undefined
+}
+
+function refusalOf(tried: readonly Tried[]): RequestError {
+  const problem = tried.find((result): result is FormProblem => typeof result === 'object')
+  return new RequestError(problem?.code ?? 'UNSUPPORTED', problem?.message ?? 'No command takes it.', problem?.field)
 }
 
 /** A command that not every CPU of the family has is taken only where nothing else does it. */
-function chosenFreely(protocol: PlanProtocol, command: CommandName, direct: DeviceForm | RequestError): boolean {
-  return doubtOf(protocol.profile, command) === undefined || direct instanceof RequestError
+function chosenFreely(protocol: PlanProtocol, command: CommandName, direct: Tried): boolean {
+  return doubtOf(protocol.profile, command) === undefined || formIn(direct) === undefined
 }
 
 function blockOf(

@@ -4,7 +4,7 @@ import { type DeviceInfo, deviceInfo, devicesOfGroup } from '../../melsec/device
 import { exclusionOf } from '../../melsec/profiles/profile'
 import { formatType, type ValueType, wordsOf } from '../../value/value'
 import type { ParsedItem } from '../item/item'
-import { type Area, areaKey, areaOf, type CellKind, capacityOf, type Direction, isModified } from './area'
+import { type Area, areaKey, areaOf, type CellKind, capacityOf, type Direction, isExtended, isModified } from './area'
 import type { PlanProtocol } from './limit'
 
 /**
@@ -27,23 +27,40 @@ export interface Layout {
 /** Bits of the third word of a long timer's record (SLMP reference manual 5.2, Read: LTN, LSTN). */
 const RECORD_BIT = { coil: 32, contact: 33 } as const
 
-/** Finds areas, and keeps them: their ways are worked out once per plan. */
+/** Areas of whole devices, of which there are few: worked out once for all plans of a protocol. */
+const ordinary = new WeakMap<PlanProtocol, Record<Direction, Map<string, Area>>>()
+
+function ordinaryAreas(protocol: PlanProtocol, direction: Direction): Map<string, Area> {
+  let found = ordinary.get(protocol)
+  if (found === undefined) {
+    found = { read: new Map(), write: new Map() }
+    ordinary.set(protocol, found)
+  }
+  return found[direction]
+}
+
+/** Finds areas, and keeps them: those of networks, modules and modified addresses for one plan, because there is no end of them. */
 export class Areas {
-  readonly #known = new Map<string, Area>()
+  readonly #ordinary: Map<string, Area>
+  readonly #extended = new Map<string, Area>()
   readonly #capacities = new Map<Area, number>()
 
   constructor(
     readonly protocol: PlanProtocol,
     readonly direction: Direction,
-  ) {}
+  ) {
+    this.#ordinary = ordinaryAreas(protocol, direction)
+  }
 
   /** @throws RequestError when no command reaches the device. */
   find(kind: CellKind, address: ParsedItem['address']): Area {
-    const key = areaKey(kind, address)
-    let area = this.#known.get(key)
+    const isOrdinary = !isExtended(address)
+    const known = isOrdinary ? this.#ordinary : this.#extended
+    const key = isOrdinary ? `${kind} ${address.device}` : areaKey(kind, address)
+    let area = known.get(key)
     if (area === undefined) {
       area = areaOf(this.protocol, this.direction, kind, address)
-      this.#known.set(key, area)
+      known.set(key, area)
     }
     return area
   }

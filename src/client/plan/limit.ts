@@ -8,7 +8,7 @@ import type { LimitedUnit } from '../../melsec/device/limit-rule'
 import type { Profile } from '../../melsec/profiles/profile'
 
 /** What of a protocol the planner looks at. */
-export type PlanProtocol = Pick<ClientProtocol, 'profile' | 'code' | 'exchange' | 'answerBytes'>
+export type PlanProtocol = Pick<ClientProtocol, 'profile' | 'code' | 'exchange' | 'check' | 'bodyBytes' | 'answerBytes'>
 
 /** Elements per field of a request, named as in `Limit.sum`, e.g. `{ words: 3, doubleWords: 2 }`. */
 export type Load = Readonly<Record<string, number>>
@@ -43,19 +43,33 @@ function widthsOf(command: CommandName): Bound[] {
   })
 }
 
-function measured(bound: Bound, load: Load): number {
-  let sum = 0
-  for (const [path, weight] of Object.entries(bound.sum)) sum += weight * (load[path] ?? 0)
-  return sum
+/** What a load comes to in each of some bounds. Sums of loads are the loads' sums added. */
+export type Sums = readonly number[]
+
+export function sumsOf(bounds: readonly Bound[], load: Load): number[] {
+  return bounds.map(({ sum }) => {
+    let measured = 0
+    for (const path in sum) measured += (sum[path] ?? 0) * (load[path] ?? 0)
+    return measured
+  })
+}
+
+/** Adds to the first of the two. */
+export function addSums(sums: number[], more: Sums): void {
+  for (let i = 0; i < sums.length; i++) sums[i] = at(sums, i) + at(more, i)
+}
+
+export function isWithin(bounds: readonly Bound[], sums: Sums): boolean {
+  return bounds.every(({ max }, i) => at(sums, i) <= max)
 }
 
 export function fits(bounds: readonly Bound[], load: Load): boolean {
-  return bounds.every((bound) => measured(bound, load) <= bound.max)
+  return isWithin(bounds, sumsOf(bounds, load))
 }
 
-/** Requests that a load needs at least, however it is distributed. */
-export function fewestFor(bounds: readonly Bound[], load: Load): number {
-  return bounds.reduce((most, bound) => Math.max(most, Math.ceil(measured(bound, load) / bound.max)), 0)
+/** Requests that are needed at least, however they are filled. */
+export function fewestFor(bounds: readonly Bound[], sums: Sums): number {
+  return bounds.reduce((most, { max }, i) => Math.max(most, Math.ceil(at(sums, i) / max)), 0)
 }
 
 export function added(a: Load, b: Load): Load {
@@ -77,31 +91,28 @@ export function largest(holds: (n: number) => boolean): number {
 }
 
 /** Puts each parcel into the first request it fits into, the heaviest first. Every parcel must fit into an empty one. */
-export function firstFit<T>(parcels: readonly T[], loadOf: (parcel: T) => Load, bounds: readonly Bound[]): T[][] {
+export function firstFit<T>(parcels: readonly T[], sumsOfParcel: (parcel: T) => Sums, bounds: readonly Bound[]): T[][] {
   const bins: { readonly sums: number[]; readonly parcels: T[] }[] = []
-  // Loads add up bound by bound, so that plain numbers do: plans have thousands of parcels.
   const weighed = parcels.map((parcel) => {
-    const load = loadOf(parcel)
-    return { parcel, sums: bounds.map((bound) => measured(bound, load)), weight: weightOf(load, bounds) }
+    const sums = sumsOfParcel(parcel)
+    return { parcel, sums, weight: weightOf(sums, bounds) }
   })
   for (const { parcel, sums } of weighed.sort((a, b) => b.weight - a.weight)) {
     const bin = bins.find((candidate) => bounds.every(({ max }, i) => at(candidate.sums, i) + at(sums, i) <= max))
-    if (bin === undefined) bins.push({ sums, parcels: [parcel] })
+    if (bin === undefined) bins.push({ sums: [...sums], parcels: [parcel] })
     else {
       bin.parcels.push(parcel)
-      sums.forEach((sum, i) => {
-        bin.sums[i] = at(bin.sums, i) + sum
-      })
+      addSums(bin.sums, sums)
     }
   }
   return bins.map((bin) => bin.parcels)
 }
 
-function at(numbers: readonly number[], index: number): number {
+function at(numbers: Sums, index: number): number {
   return numbers[index] ?? 0
 }
 
-/** Share of a request a load takes. */
-export function weightOf(load: Load, bounds: readonly Bound[]): number {
-  return bounds.reduce((most, bound) => Math.max(most, measured(bound, load) / bound.max), 0)
+/** Share of a request it takes. */
+export function weightOf(sums: Sums, bounds: readonly Bound[]): number {
+  return bounds.reduce((most, { max }, i) => Math.max(most, at(sums, i) / max), 0)
 }

@@ -8,7 +8,19 @@ import type { CommandName } from '../../melsec/commands/commands'
 import { groupOf, randomLoad } from './area'
 import { type Chunk, chunksOf, type Stretch } from './chunk'
 import type { Areas, Piece } from './layout'
-import { added, type Bound, boundsOf, fewestFor, firstFit, fits, type Load, type PlanProtocol, weightOf } from './limit'
+import {
+  addSums,
+  type Bound,
+  boundsOf,
+  fewestFor,
+  firstFit,
+  isWithin,
+  type Load,
+  type PlanProtocol,
+  type Sums,
+  sumsOf,
+  weightOf,
+} from './limit'
 
 /** One request to be: the cells it asks for. */
 export type Draft =
@@ -31,15 +43,34 @@ export function packed(areas: Areas, pieces: readonly Piece[], options: PackOpti
   const groups = new Map<string, Chunk[]>()
   for (const chunk of chunksOf(areas, pieces, options.gap)) {
     const group = groupOf(chunk.area)
-    groups.set(group, [...(groups.get(group) ?? []), chunk])
+    const chunks = groups.get(group)
+    if (chunks === undefined) groups.set(group, [chunk])
+    else chunks.push(chunk)
   }
   const drafts = [...groups.values()].flatMap((chunks) => best(plansOf(areas.protocol, chunks, options), cost))
-  const first = (draft: Draft) => Math.min(...(draft.kind === 'direct' ? [draft.run] : draft.runs).map(firstItem))
-  return drafts.sort((a, b) => first(a) - first(b))
+  return sortedBy(drafts, (draft) =>
+    draft.kind === 'direct' ? firstItem(draft.run) : least(draft.runs.map((run) => firstItem(run))),
+  )
 }
 
 function firstItem({ members }: Stretch): number {
-  return members.reduce((least, { item }) => Math.min(least, item), Number.POSITIVE_INFINITY)
+  let first = Number.POSITIVE_INFINITY
+  for (const { item } of members) if (item < first) first = item
+  return first
+}
+
+function least(numbers: readonly number[]): number {
+  let found = Number.POSITIVE_INFINITY
+  for (const number of numbers) if (number < found) found = number
+  return found
+}
+
+/** Numbers are asked for once for each, not with each comparison. */
+function sortedBy<T>(values: readonly T[], numberOf: (value: T) => number): T[] {
+  return values
+    .map((value) => ({ value, number: numberOf(value) }))
+    .sort((a, b) => a.number - b.number)
+    .map(({ value }) => value)
 }
 
 function best(plans: readonly (readonly Draft[])[], cost: Cost): readonly Draft[] {
@@ -74,10 +105,39 @@ function runLoad({ area, from, to }: Stretch): Load {
   return randomLoad(area, to - from)
 }
 
+/** What runs come to in the bounds of one command: each is weighed once, however many plans it is in. */
+class Scale {
+  readonly #known = new Map<Stretch, Sums>()
+
+  constructor(
+    readonly bounds: readonly Bound[],
+    readonly loadOf: (run: Stretch) => Load,
+  ) {}
+
+  of(run: Stretch): Sums {
+    let sums = this.#known.get(run)
+    if (sums === undefined) {
+      sums = sumsOf(this.bounds, this.loadOf(run))
+      this.#known.set(run, sums)
+    }
+    return sums
+  }
+
+  fits(run: Stretch): boolean {
+    return isWithin(this.bounds, this.of(run))
+  }
+
+  ofAll(runs: readonly Stretch[]): number[] {
+    const sums = this.bounds.map(() => 0)
+    for (const run of runs) addSums(sums, this.of(run))
+    return sums
+  }
+}
+
 /** Whether Read Random can read all of a chunk. */
-function scatters({ area, members }: Chunk, bounds: readonly Bound[]): boolean {
+function scatters({ area, members }: Chunk, scale: Scale): boolean {
   if (area.ways.random === undefined) return false
-  return members.every((run) => fits(bounds, runLoad(run)) && run.members.every(({ layout }) => !layout.directOnly))
+  return members.every((run) => scale.fits(run) && run.members.every(({ layout }) => !layout.directOnly))
 }
 
 /**
@@ -85,26 +145,32 @@ function scatters({ area, members }: Chunk, bounds: readonly Bound[]): boolean {
  * @returns the plans with the fewest and the most Reads among those with the fewest requests
  */
 function byRandom(bounds: readonly Bound[], chunks: readonly Chunk[]): Draft[][] {
-  const loads = new Map(chunks.map((chunk) => [chunk, chunk.members.map(runLoad).reduce(added, {})]))
-  const loadOf = (chunk: Chunk): Load => loads.get(chunk) ?? {}
+  const scale = new Scale(bounds, runLoad)
   const must: Chunk[] = []
-  const may: Chunk[] = []
+  const may: { readonly chunk: Chunk; readonly sums: Sums; readonly weight: number }[] = []
   const always: Chunk[] = []
   for (const chunk of chunks) {
-    const { direct: read } = chunk.area.ways
-    ;(read === undefined ? must : scatters(chunk, bounds) ? may : always).push(chunk)
+    if (chunk.area.ways.direct === undefined) must.push(chunk)
+    else if (scatters(chunk, scale)) {
+      const sums = scale.ofAll(chunk.members)
+      may.push({ chunk, sums, weight: weightOf(sums, bounds) })
+    } else always.push(chunk)
   }
-  may.sort((a, b) => weightOf(loadOf(b), bounds) - weightOf(loadOf(a), bounds))
-  const counts = [must.map(loadOf).reduce(added, {})]
-  for (const chunk of [...may].reverse()) counts.push(added(counts.at(-1) ?? {}, loadOf(chunk)))
-  counts.reverse()
-  // counts[n]: what is left for Read Random when the n heaviest chunks are read directly
-  const requests = counts.map((load, n) => n + fewestFor(bounds, load))
-  const fewest = Math.min(...requests)
+  may.sort((a, b) => b.weight - a.weight)
+  // requests[n]: how many there are when the n heaviest chunks are read directly
+  const left = scale.ofAll(must.flatMap(({ members }) => members))
+  const requests = [may.length + fewestFor(bounds, left)]
+  for (let n = may.length - 1; n >= 0; n--) {
+    addSums(left, may[n]?.sums ?? [])
+    requests.push(n + fewestFor(bounds, left))
+  }
+  requests.reverse()
+  const fewest = least(requests)
   const choices = new Set([requests.indexOf(fewest), requests.lastIndexOf(fewest)])
+  const heaviest = may.map(({ chunk }) => chunk)
   return [...choices].map((n) => [
-    ...[...always, ...may.slice(0, n)].map(direct),
-    ...scattered(bounds, [...must, ...may.slice(n)]),
+    ...[...always, ...heaviest.slice(0, n)].map(direct),
+    ...distributed('random', parcelsOf([...must, ...heaviest.slice(n)]), scale),
   ])
 }
 
@@ -118,25 +184,17 @@ function parcelsOf(chunks: readonly Chunk[]): Parcel[] {
   return chunks.flatMap((chunk) => chunk.members.map((run): Parcel => ({ run, chunk })))
 }
 
-function scattered(bounds: readonly Bound[], chunks: readonly Chunk[]): Draft[] {
-  return distributed('random', parcelsOf(chunks), runLoad, bounds)
-}
-
 /** As few requests as hold all parcels. One that turns out to hold one chunk only is a Read: that is what Read is for. */
-function distributed(
-  kind: 'random' | 'block',
-  parcels: readonly Parcel[],
-  loadOf: (run: Stretch) => Load,
-  bounds: readonly Bound[],
-): Draft[] {
+function distributed(kind: 'random' | 'block', parcels: readonly Parcel[], scale: Scale): Draft[] {
   const size = new Map<Chunk, number>()
   for (const { chunk } of parcels) size.set(chunk, (size.get(chunk) ?? 0) + 1)
-  return firstFit(parcels, ({ run }) => loadOf(run), bounds).map((bin): Draft => {
+  return firstFit(parcels, ({ run }) => scale.of(run), scale.bounds).map((bin): Draft => {
     const chunk = bin[0]?.chunk
     if (chunk?.area.ways.direct !== undefined && bin.length === size.get(chunk)) {
       if (bin.every((parcel) => parcel.chunk === chunk)) return direct(chunk)
     }
-    return { kind, runs: bin.map(({ run }) => run).sort((a, b) => firstItem(a) - firstItem(b)) }
+    const runs = bin.map(({ run }) => run)
+    return { kind, runs: sortedBy(runs, firstItem) }
   })
 }
 
@@ -145,25 +203,30 @@ function byBlock(protocol: PlanProtocol, chunks: readonly Chunk[], without: Read
   const blocks = chunks.filter(({ area }) => area.ways.block !== undefined)
   const first = blocks[0]
   if (first === undefined) return []
-  const bounds = boundsOf(protocol, 'readBlock', first.area.ways.form)
+  const scale = new Scale(boundsOf(protocol, 'readBlock', first.area.ways.form), blockLoad)
   const others = chunks.filter(({ area }) => area.ways.block === undefined)
   const otherPlans =
     others.length === 0 ? [[]] : plansOf(protocol, others, { gap: 0, without: new Set([...without, 'readBlock']) })
   const whole = blocks.map((chunk): Parcel => ({ run: wholeOf(chunk), chunk }))
-  return [whole, parcelsOf(blocks)].flatMap((parcels) => {
-    const isLarge = ({ run }: Parcel) => !fits(bounds, blockLoad(run))
-    const large = parcels.filter(isLarge).map(({ run }): Draft => ({ kind: 'direct', run }))
-    const fitting = parcels.filter((parcel) => !isLarge(parcel))
-    const drafts = [...large, ...distributed('block', fitting, blockLoad, bounds)]
+  // Chunks of one run each are as large as their runs.
+  const sizes = blocks.every(({ members }) => members.length === 1) ? [whole] : [whole, parcelsOf(blocks)]
+  return sizes.flatMap((parcels) => {
+    const large = parcels.filter(({ run }) => !scale.fits(run)).map(({ run }): Draft => ({ kind: 'direct', run }))
+    const fitting = parcels.filter(({ run }) => scale.fits(run))
+    const drafts = [...large, ...distributed('block', fitting, scale)]
     return otherPlans.map((plan) => [...drafts, ...plan])
   })
 }
 
 function wholeOf({ area, from, to, members }: Chunk): Stretch {
+  const [only] = members
+  if (members.length === 1 && only !== undefined) return only
   return { area, from, to, members: members.flatMap((run) => run.members) }
 }
 
 function blockLoad({ area, from, to }: Stretch): Load {
-  const list = area.ways.block ?? 'wordBlocks'
-  return { [list]: 1, [`${list}.points`]: to - from }
+  const points = to - from
+  return area.ways.block === 'bitBlocks'
+    ? { bitBlocks: 1, 'bitBlocks.points': points }
+    : { wordBlocks: 1, 'wordBlocks.points': points }
 }

@@ -10,8 +10,8 @@ import type { ParsedItem, RefusedItem } from '../item/item'
 import type { Stretch } from './chunk'
 import { Areas, type Piece, pieceOf, piecesOf, readLayout } from './layout'
 import type { PlanProtocol } from './limit'
-import { type Draft, type PackOptions, packed } from './pack'
-import { bodyBytes, type PreparedRead, prepareRead } from './request'
+import { type PackOptions, packed } from './pack'
+import { bodyBytes, checkCells, type PreparedRead, prepareRead } from './request'
 import { type Place, placeOf } from './value'
 
 /** The notation is that of descriptions; default: the profile's. */
@@ -93,7 +93,7 @@ export class ReadShape {
     }
     try {
       const pieces = piecesOf(this.#areas, readLayout(this.#areas, item), item, index)
-      for (const piece of pieces) prepareRead(this.#protocol, alone(piece), this.#address)
+      for (const piece of pieces) checkCells(this.#protocol, alone(piece))
       this.#parts.set(index, pieces.length)
       return pieces
     } catch (error) {
@@ -104,20 +104,22 @@ export class ReadShape {
   }
 
   #built(pieces: readonly Piece[], options: PackOptions, stage: ReadStep['stage']): ReadStep[] {
-    const prepare = (draft: Draft) => prepareRead(this.#protocol, draft, this.#address)
-    const drafts = packed(this.#areas, pieces, options, (draft) => bodyBytes(prepare(draft)))
-    return drafts.map((draft) => this.#stepOf(prepare(draft), options.without, stage))
+    const drafts = packed(this.#areas, pieces, options, (draft) => bodyBytes(this.#protocol, draft))
+    return drafts.map((draft) =>
+      this.#stepOf(prepareRead(this.#protocol, draft, this.#address), options.without, stage),
+    )
   }
 
   #stepOf(prepared: PreparedRead, without: PackOptions['without'], stage: ReadStep['stage']): ReadStep {
-    const runs = [...prepared.offsets]
-    const pieces = runs.flatMap(([run]) => run.members)
-    const places = runs.flatMap(([run, offset]) =>
-      run.members.flatMap((piece) => {
+    const pieces: Piece[] = []
+    const places: Place[] = []
+    for (const [run, offset] of prepared.offsets) {
+      for (const piece of run.members) {
         const item = this.#items[piece.item]
-        return item === undefined || 'error' in item ? [] : [placeOf(piece, item, offset, run.from)]
-      }),
-    )
+        pieces.push(piece)
+        if (item !== undefined && !('error' in item)) places.push(placeOf(piece, item, offset, run.from))
+      }
+    }
     return { prepared, pieces, places, stage, without }
   }
 
@@ -247,9 +249,7 @@ function titleOf(command: CommandName): string {
   return commands[command].title
 }
 
-/** A request for one piece and nothing else. */
-function alone(piece: Piece): Draft {
-  const { area } = piece.layout
-  const run: Stretch = { area, from: piece.from, to: piece.to, members: [piece] }
-  return area.ways.direct === undefined ? { kind: 'random', runs: [run] } : { kind: 'direct', run }
+/** A piece and nothing else. */
+function alone(piece: Piece): Stretch {
+  return { area: piece.layout.area, from: piece.from, to: piece.to, members: [piece] }
 }

@@ -1,6 +1,7 @@
 // From a draft to a request that can be sent again and again, and from its answer to words in a row.
 
 import type { Exchange } from '../../link/link'
+import type { Command, RequestOf, ResponseOf } from '../../melsec/commands/command'
 import { type CommandName, commands } from '../../melsec/commands/commands'
 import { type AddressOptions, formatDevice } from '../../melsec/device/address'
 import type { DeviceAddress } from '../../melsec/device/device'
@@ -49,20 +50,63 @@ export interface PreparedRead extends Prepared {
   fetch(send: SendExchange): Promise<Words>
 }
 
-/** @throws RequestError when the request cannot be sent. */
-export function prepareRead(protocol: PlanProtocol, draft: Draft, options: AddressOptions): PreparedRead {
+/** What a draft asks for, before anything is encoded, and what the answer means. */
+interface Question<C extends Command> {
+  readonly name: CommandName
+  readonly command: C
+  readonly message: RequestOf<C>
+  readonly form: DeviceForm
+  readonly points: number
+  readonly text: (options: AddressOptions) => string
+  readonly offsets: ReadonlyMap<Stretch, number>
+  readonly wordsOf: (answer: ResponseOf<C>) => Words
+}
+
+/** The draft's question, whatever command it is for. */
+function withQuestion<R>(draft: Draft, use: <C extends Command>(question: Question<C>) => R): R {
   switch (draft.kind) {
     case 'direct':
-      return draft.run.area.kind === 'bit'
-        ? readBits(protocol, draft.run, options)
-        : readWords(protocol, draft.run, options)
+      return draft.run.area.kind === 'bit' ? use(readBits(draft.run)) : use(readWords(draft.run))
     case 'random':
-      return readRandom(protocol, draft.runs)
+      return use(readRandom(draft.runs))
     case 'block':
-      return readBlock(protocol, draft.runs)
+      return use(readBlock(draft.runs))
     default:
       return draft satisfies never
   }
+}
+
+/** @throws RequestError when the request cannot be sent. */
+export function prepareRead(protocol: PlanProtocol, draft: Draft, options: AddressOptions): PreparedRead {
+  return withQuestion(draft, (question) => {
+    const { name, command, message, form, points, offsets, text, wordsOf } = question
+    const exchange = protocol.exchange(command, message)
+    return {
+      command: name,
+      form,
+      points,
+      exchange,
+      // Only people ask for it.
+      get text() {
+        return text(options)
+      },
+      offsets,
+      fetch: async (send) => wordsOf(await send(exchange)),
+    }
+  })
+}
+
+/** @throws RequestError when these cells alone could not be asked for. */
+export function checkCells(protocol: PlanProtocol, run: Stretch): void {
+  const { direct } = run.area.ways
+  if (direct === undefined) protocol.check(commands.readRandom, readRandom([run]).message)
+  else if (run.area.kind === 'bit') protocol.check(commands.readBits, messageInRow(run))
+  else protocol.check(commands.readWords, messageInRow(run))
+}
+
+/** Bytes of the bodies of request and answer. */
+export function bodyBytes(protocol: PlanProtocol, draft: Draft): number {
+  return withQuestion(draft, ({ command, message, form }) => protocol.bodyBytes(command, message, form))
 }
 
 /** First and last device, e.g. `D100 to D149`. */
@@ -77,34 +121,29 @@ export function pointsText(points: number, unit = 'point'): string {
   return `${points} ${unit}${points === 1 ? '' : 's'}`
 }
 
-function readWords(protocol: PlanProtocol, run: Stretch, options: AddressOptions): PreparedRead {
+function readWords(run: Stretch): Question<typeof commands.readWords> {
+  return { ...inRow('readWords', run), command: commands.readWords, wordsOf: ({ values }) => values }
+}
+
+function readBits(run: Stretch): Question<typeof commands.readBits> {
+  return { ...inRow('readBits', run), command: commands.readBits, wordsOf: ({ values }) => wordsOfBits(values) }
+}
+
+function inRow(name: CommandName, run: Stretch) {
   const { area, from, to } = run
-  const points = (to - from) * wordsPerCell(area)
-  const exchange = protocol.exchange(commands.readWords, { head: addressAt(area, from), points })
+  const message = messageInRow(run)
   return {
-    command: 'readWords',
+    name,
+    message,
     form: area.ways.form,
-    points,
-    exchange,
-    text: `${rangeText(area, from, to, options)}, ${pointsText(points)}`,
+    points: message.points,
+    text: (options: AddressOptions) => `${rangeText(area, from, to, options)}, ${pointsText(message.points)}`,
     offsets: new Map([[run, 0]]),
-    fetch: async (send) => (await send(exchange)).values,
   }
 }
 
-function readBits(protocol: PlanProtocol, run: Stretch, options: AddressOptions): PreparedRead {
-  const { area, from, to } = run
-  const points = to - from
-  const exchange = protocol.exchange(commands.readBits, { head: addressAt(area, from), points })
-  return {
-    command: 'readBits',
-    form: area.ways.form,
-    points,
-    exchange,
-    text: `${rangeText(area, from, to, options)}, ${pointsText(points)}`,
-    offsets: new Map([[run, 0]]),
-    fetch: async (send) => wordsOfBits((await send(exchange)).values),
-  }
+function messageInRow({ area, from, to }: Stretch): { readonly head: DeviceAddress; readonly points: number } {
+  return { head: addressAt(area, from), points: area.kind === 'bit' ? to - from : (to - from) * wordsPerCell(area) }
 }
 
 function wordsOfBits(bits: readonly boolean[]): number[] {
@@ -145,19 +184,19 @@ function scatter(run: Stretch, into: Scatter): number {
   return 16 * start
 }
 
-function readRandom(protocol: PlanProtocol, runs: readonly Stretch[]): PreparedRead {
+function readRandom(runs: readonly Stretch[]): Question<typeof commands.readRandom> {
   const all: Scatter = { words: [], doubleWords: [], wordAt: [], doubleWordAt: [], length: 0 }
   const offsets = new Map(runs.map((run) => [run, scatter(run, all)]))
   const { words, doubleWords } = all
-  const exchange = protocol.exchange(commands.readRandom, { words, doubleWords })
   return {
-    command: 'readRandom',
+    name: 'readRandom',
+    command: commands.readRandom,
+    message: { words, doubleWords },
     form: formOf(runs),
     points: words.length + doubleWords.length,
-    exchange,
-    text: `${pointsText(words.length, 'word')}, ${pointsText(doubleWords.length, 'double word')}`,
+    text: () => `${pointsText(words.length, 'word')}, ${pointsText(doubleWords.length, 'double word')}`,
     offsets,
-    fetch: async (send) => gathered(all, await send(exchange)),
+    wordsOf: (answer) => gathered(all, answer),
   }
 }
 
@@ -177,14 +216,10 @@ function gathered(
   return words
 }
 
-function readBlock(protocol: PlanProtocol, runs: readonly Stretch[]): PreparedRead {
+function readBlock(runs: readonly Stretch[]): Question<typeof commands.readBlock> {
   const wordRuns = runs.filter(({ area }) => area.ways.block !== 'bitBlocks')
   const bitRuns = runs.filter(({ area }) => area.ways.block === 'bitBlocks')
   const block = ({ area, from, to }: Stretch) => ({ head: addressAt(area, from), points: to - from })
-  const exchange = protocol.exchange(commands.readBlock, {
-    wordBlocks: wordRuns.map(block),
-    bitBlocks: bitRuns.map(block),
-  })
   const offsets = new Map<Stretch, number>()
   let points = 0
   for (const run of [...wordRuns, ...bitRuns]) {
@@ -192,26 +227,20 @@ function readBlock(protocol: PlanProtocol, runs: readonly Stretch[]): PreparedRe
     points += run.to - run.from
   }
   return {
-    command: 'readBlock',
+    name: 'readBlock',
+    command: commands.readBlock,
+    message: { wordBlocks: wordRuns.map(block), bitBlocks: bitRuns.map(block) },
     form: formOf(runs),
     points,
-    exchange,
-    text: `${pointsText(wordRuns.length, 'word block')}, ${pointsText(bitRuns.length, 'bit block')}, ${pointsText(points)}`,
+    text: () =>
+      `${pointsText(wordRuns.length, 'word block')}, ${pointsText(bitRuns.length, 'bit block')}, ${pointsText(points)}`,
     offsets,
-    fetch: async (send) => {
-      const answer = await send(exchange)
-      return [...answer.wordBlocks, ...answer.bitBlocks].flat()
-    },
+    wordsOf: ({ wordBlocks, bitBlocks }) => [...wordBlocks, ...bitBlocks].flat(),
   }
 }
 
 function formOf(runs: readonly Stretch[]): DeviceForm {
   return runs[0]?.area.ways.form ?? 'short'
-}
-
-/** Bytes of the bodies of request and answer. */
-export function bodyBytes({ exchange }: Prepared): number {
-  return exchange.body.length + (exchange.answerBody() ?? 0)
 }
 
 export function describePrepared(

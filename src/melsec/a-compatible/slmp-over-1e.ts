@@ -101,6 +101,16 @@ class SlmpOver1e implements ClientProtocol {
     }
   }
 
+  /** @throws RequestError as `exchange` */
+  check<C extends Command>(command: C, message: RequestOf<C>): void {
+    this.exchange(command, message)
+  }
+
+  bodyBytes<C extends Command>(command: C, message: RequestOf<C>): number {
+    const { body, answerBody } = this.exchange(command, message)
+    return body.length + (answerBody() ?? 0)
+  }
+
   #check(command: Command, options: ExchangeOptions): void {
     const lack = lackOf(this.profile, command.name as CommandName)
     if (lack !== undefined) {

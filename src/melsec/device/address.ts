@@ -29,7 +29,6 @@ import {
   deviceInfo,
   devices,
   devicesOfGroup,
-  findDevice,
   type Radix,
 } from './device'
 
@@ -93,15 +92,15 @@ function parsedDevice(text: string, options: AddressOptions): ParsedDevice {
     throw new RequestError(code, `${JSON.stringify(shortened(text))}: ${message}${hintFor(clean)}`)
   }
   const indirect = clean.startsWith('@')
-  const parts = clean.slice(indirect ? 1 : 0).split(/[\\/¥]/)
+  const parts = partsOf(indirect ? clean.slice(1) : clean)
   const [first = '', second] = parts
   if (parts.length > 2) fail('one \\ at most, between the network or module and the device.')
-  const place = second === undefined ? {} : parsePlace(first, fail)
+  const place = second === undefined ? NO_PLACE : parsePlace(first, fail)
   const device = parseTail(second ?? first, place, options, fail)
-  const parsed: ParsedDevice = {
-    ...device,
-    address: { ...device.address, ...place, ...(indirect ? { indirect } : {}) },
-  }
+  const parsed: ParsedDevice =
+    place === NO_PLACE && !indirect
+      ? device
+      : { ...device, address: { ...device.address, ...place, ...(indirect ? { indirect } : {}) } }
   const problem = addressProblem(parsed.address)
   if (problem !== undefined) fail(problem.message, problem.code)
   return parsed
@@ -109,6 +108,12 @@ function parsedDevice(text: string, options: AddressOptions): ParsedDevice {
 
 type Fail = (message: string, code?: RequestErrorCode) => never
 type Place = Pick<DeviceAddress, 'extension' | 'extensionIndex'>
+
+const NO_PLACE: Place = {}
+
+function partsOf(text: string): readonly string[] {
+  return /[\\/¥]/.test(text) ? text.split(/[\\/¥]/) : [text]
+}
 
 function cleaned(text: string): string {
   if (typeof text !== 'string') {
@@ -170,26 +175,34 @@ const DIGITS = { 8: /^[0-7]+$/, 10: /^[0-9]+$/, 16: /^[0-9A-F]+$/ } as const
 const RADIX_NAME = { 8: 'octal (0-7)', 10: 'decimal (0-9)', 16: 'hexadecimal (0-9, A-F)' } as const
 
 /** Longest name first: `SB10` is SB, not S; `DX1` is DX, not D. A hexadecimal number never continues into a name. */
-const NAMES = devices.map((info) => info.name).sort((a, b) => b.length - a.length)
+const BY_LENGTH = [...devices].sort((a, b) => b.name.length - a.name.length)
+const NAMES = BY_LENGTH.map(({ name }) => name)
+const BY_FIRST_LETTER: ReadonlyMap<string, readonly DeviceInfo[]> = new Map(
+  BY_LENGTH.map(({ name: { 0: letter = '' } }) => [letter, BY_LENGTH.filter(({ name }) => name.startsWith(letter))]),
+)
 
 /** Device, number, index and bit: what stands behind `\`. */
 function parseTail(text: string, place: Place, options: AddressOptions, fail: Fail): ParsedDevice {
-  const [, digitText, device = text] = /^K(\d+)([A-Z].*)$/.exec(text) ?? []
-  const name = NAMES.find((candidate) => device.startsWith(candidate))
-  const info = name === undefined ? undefined : findDevice(name)
+  const [, digitText, device = text] = (text.startsWith('K') && /^K(\d+)([A-Z].*)$/.exec(text)) || []
+  const info = BY_FIRST_LETTER.get(device.charAt(0))?.find(({ name }) => device.startsWith(name))
   if (info === undefined) return fail(noDevice(device))
   const rest = device.slice(info.name.length)
-  const [, digits = '', register, index, bit] = /^([0-9A-F]*)(?:(L?Z)([0-9]+))?(?:\.(.*))?$/.exec(rest) ?? []
   const radix = radixOf(info, place, options)
+  // The usual address is a name and a number.
+  if (digitText === undefined && DIGITS[radix].test(rest)) return { address: addressOf(info, rest, radix) }
+  const [, digits = '', register, index, bit] = /^([0-9A-F]*)(?:(L?Z)([0-9]+))?(?:\.(.*))?$/.exec(rest) ?? []
   if (!DIGITS[radix].test(digits)) {
     return fail(chooseTimerPart(device) ?? badNumber(info, rest, radix))
   }
   const address: DeviceAddress = {
-    device: info.name,
-    number: Number.parseInt(digits, radix),
+    ...addressOf(info, digits, radix),
     ...(register === undefined ? {} : { index: { register: register === 'LZ' ? 'LZ' : 'Z', number: Number(index) } }),
   }
   return { address, ...digitCount(digitText, info, bit, fail), ...bitOf(bit, info, fail) }
+}
+
+function addressOf(info: DeviceInfo, digits: string, radix: Radix): DeviceAddress {
+  return { device: info.name, number: Number.parseInt(digits, radix) }
 }
 
 /** `T5`, `ST5`, `C5`: what GX Works shows as one thing is three devices. */

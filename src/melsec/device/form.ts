@@ -5,7 +5,7 @@ import type { Command } from '../commands/command'
 import type { CommandName } from '../commands/commands'
 import { FILE_BITS } from '../file/codec'
 import { exclusionOf, lackOf, type Profile } from '../profiles/profile'
-import { accessProblem } from './access'
+import { type AccessProblem, accessProblem } from './access'
 import { FORM_EXTENDED, FORM_LONG, formNeededBy, formProblem } from './codec'
 import { deviceInfo } from './device'
 import type { DeviceForm } from './device-form'
@@ -83,44 +83,66 @@ export function readSubcommand(subcommand: number): { unit: 'bit' | 'word'; form
   return { unit: (subcommand & BIT_UNIT) === 0 ? 'word' : 'bit', form }
 }
 
+/** Why there is no form to send a request in. */
+export interface FormProblem extends AccessProblem {
+  readonly field?: string
+}
+
 /**
  * The form this request is sent in: the profile's own, or the first of its forms that can say every address.
  * @throws RequestError when the profile, the command or the form cannot do what is asked.
  */
-export function chooseForm(
+export function chooseForm(...asked: Parameters<typeof formOrProblem>): DeviceForm {
+  const found = formOrProblem(...asked)
+  if (typeof found === 'string') return found
+  throw new RequestError(found.code, found.message, found.field)
+}
+
+/** As `chooseForm`, with the problem as data, for those who look for what can be sent. */
+export function formOrProblem(
   profile: Profile,
   command: Command,
   found: readonly FoundDevice[],
   code: DataCode,
   extraBits: number,
   wanted?: DeviceForm,
-): DeviceForm {
-  checkCommand(profile, command)
-  for (const device of found) checkDevice(profile, command, device)
+): DeviceForm | FormProblem {
+  const lack = commandProblem(profile, command)
+  if (lack !== undefined) return lack
+  for (const device of found) {
+    const problem = deviceProblem(profile, command, device)
+    if (problem !== undefined) return { ...problem, field: device.path }
+  }
   if (wanted !== undefined && !profile.forms.includes(wanted)) {
     const forms = profile.forms.join(', ')
-    throw new RequestError('UNSUPPORTED', `${profile.title} does not have the ${wanted} form, only ${forms}.`, 'form')
+    return unsupported(`${profile.title} does not have the ${wanted} form, only ${forms}.`, 'form')
   }
   const form = wanted ?? (found.length === 0 ? profile.form : formFor(profile, found))
+  if (form === undefined) {
+    const asked = found.map(({ address }) => `${address.device}${address.number}`).join(', ')
+    return unsupported(`${profile.title} has no form that can address ${asked}.`)
+  }
   for (const { address, path } of found) {
     const problem = formProblem(address, code === 'ascii', FORM_BITS[form] | extraBits)
-    if (problem !== undefined) throw new RequestError(problem.code, problem.message, path)
+    if (problem !== undefined) return { ...problem, field: path }
   }
   return form
 }
 
-function formFor(profile: Profile, found: readonly FoundDevice[]): DeviceForm {
+function unsupported(message: string, field?: string): FormProblem {
+  return { code: 'UNSUPPORTED', message, ...(field === undefined ? {} : { field }) }
+}
+
+function formFor(profile: Profile, found: readonly FoundDevice[]): DeviceForm | undefined {
   let need = 0
   for (const { address } of found) need |= needOf(profile, address)
   const ordered: readonly DeviceForm[] = [profile.form, ...profile.forms]
-  const form =
+  return (
     ordered.find(
       (candidate) =>
         (FORM_BITS[candidate] & need) === need && (need & FORM_EXTENDED) === (FORM_BITS[candidate] & FORM_EXTENDED),
     ) ?? ordered.find((candidate) => (FORM_BITS[candidate] & need) === need)
-  if (form !== undefined) return form
-  const asked = found.map(({ address }) => `${address.device}${address.number}`).join(', ')
-  throw new RequestError('UNSUPPORTED', `${profile.title} has no form that can address ${asked}.`)
+  )
 }
 
 function needOf(profile: Profile, address: FoundDevice['address']): number {
@@ -128,14 +150,10 @@ function needOf(profile: Profile, address: FoundDevice['address']): number {
   return formNeededBy(address) | (longOnly ? FORM_LONG : 0)
 }
 
-function checkCommand(profile: Profile, command: Command): void {
+function commandProblem(profile: Profile, command: Command): FormProblem | undefined {
   const lack = lackOf(profile, command.name as CommandName)
-  if (lack === undefined) return
-  throw new RequestError(
-    'UNSUPPORTED',
-    `${profile.title} does not have ${command.title}: ${lack.reason} ${lack.instead}`,
-    command.name,
-  )
+  if (lack === undefined) return undefined
+  return unsupported(`${profile.title} does not have ${command.title}: ${lack.reason} ${lack.instead}`, command.name)
 }
 
 const EXTENSION_TITLES = {
@@ -144,34 +162,30 @@ const EXTENSION_TITLES = {
   cpu: 'the buffer memory of CPUs (U3E0\\G100)',
 } as const
 
-function checkDevice(profile: Profile, command: Command, { address, use, path }: FoundDevice): void {
+function deviceProblem(profile: Profile, command: Command, { address, use }: FoundDevice): AccessProblem | undefined {
   const problem = accessProblem(address, use)
-  if (problem !== undefined) throw new RequestError(problem.code, problem.message, path)
+  if (problem !== undefined) return problem
   if (profile.absentDevices.includes(address.device)) {
-    throw new RequestError('UNSUPPORTED', `${profile.title} has no device ${address.device}.`, path)
+    return unsupported(`${profile.title} has no device ${address.device}.`)
   }
   if (address.extension !== undefined && !profile.extensions.includes(address.extension.kind)) {
-    throw new RequestError(
-      'UNSUPPORTED',
-      `${profile.title} does not take ${EXTENSION_TITLES[address.extension.kind]}.`,
-      path,
-    )
+    return unsupported(`${profile.title} does not take ${EXTENSION_TITLES[address.extension.kind]}.`)
   }
-  for (const index of [address.index, address.extensionIndex]) {
-    if (index === undefined || index.number <= profile.lastIndex[index.register]) continue
-    throw new RequestError(
-      'OUT_OF_RANGE',
-      `${index.register}${index.number} cannot modify an address on ${profile.title}: ` +
-        `${index.register}0 to ${index.register}${profile.lastIndex[index.register]} can.`,
-      path,
-    )
-  }
+  const index = indexProblem(profile, address.index) ?? indexProblem(profile, address.extensionIndex)
+  if (index !== undefined) return index
   const exclusion = exclusionOf(profile, command.name as CommandName, address.device)
-  if (exclusion !== undefined) {
-    throw new RequestError(
-      'UNSUPPORTED',
-      `${command.title} does not take ${address.device} on ${profile.title}: ${exclusion.reason} ${exclusion.instead}`,
-      path,
-    )
+  if (exclusion === undefined) return undefined
+  return unsupported(
+    `${command.title} does not take ${address.device} on ${profile.title}: ${exclusion.reason} ${exclusion.instead}`,
+  )
+}
+
+function indexProblem(profile: Profile, index: FoundDevice['address']['index']): AccessProblem | undefined {
+  if (index === undefined || index.number <= profile.lastIndex[index.register]) return undefined
+  return {
+    code: 'OUT_OF_RANGE',
+    message:
+      `${index.register}${index.number} cannot modify an address on ${profile.title}: ` +
+      `${index.register}0 to ${index.register}${profile.lastIndex[index.register]} can.`,
   }
 }

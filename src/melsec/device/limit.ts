@@ -137,9 +137,10 @@ function tallied(message: Measurable, name: string): number {
 
 function sizeAt(message: Measurable, path: string): number | undefined {
   if (path.startsWith(TALLY)) return tallied(message, path.slice(TALLY.length))
-  const [field, inner] = path.split('.')
-  const value = message[field ?? '']
-  if (inner === undefined) return sizeOf(value)
+  const dot = path.indexOf('.')
+  if (dot < 0) return sizeOf(message[path])
+  const value = message[path.slice(0, dot)]
+  const inner = path.slice(dot + 1)
   if (!Array.isArray(value)) return undefined
   let sum = 0
   for (const item of value as unknown[]) {
@@ -158,7 +159,7 @@ function sizeAt(message: Measurable, path: string): number | undefined {
 export function measureLimit(limit: Limit, message: Measurable): number {
   if (limit.unit === 'bytes') return requestBytes(limit.command, limit.code, message)
   let sum = 0
-  for (const [path, weight] of Object.entries(limit.sum)) {
+  for (const path in limit.sum) {
     // A number where characters belong is no count of them: told as one, a password typed as a number would be shown.
     if (limit.unit === 'characters' && typeof message[path] !== 'string') {
       throw new RequestError('BAD_MESSAGE', `${limit.command}: "${path}" must be a text.`, path)
@@ -167,7 +168,7 @@ export function measureLimit(limit: Limit, message: Measurable): number {
     if (size === undefined || !Number.isFinite(size)) {
       throw new RequestError('BAD_MESSAGE', `${limit.command}: "${path}" must be a number, a text or a list.`, path)
     }
-    sum += weight * size
+    sum += (limit.sum[path] ?? 0) * size
   }
   return sum
 }
