@@ -1,9 +1,18 @@
 // The package as a user gets it: packed, installed into an empty project, required, imported and compiled against.
 import { execFile } from 'node:child_process'
-import { mkdirSync, mkdtempSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs'
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from 'node:fs'
 import { createRequire } from 'node:module'
 import { tmpdir } from 'node:os'
-import { join } from 'node:path'
+import { dirname, join } from 'node:path'
 import { promisify } from 'node:util'
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import { root } from './support/root'
@@ -79,6 +88,19 @@ console.log(await client.read('D100:REAL'))
 await client.close()
 await plc.close()`
     expect(await node('program.mjs', text)).toBe('71.5')
+  })
+
+  test('has the sources that its declarations lead to: an editor opens them', () => {
+    const installed = join(project, 'node_modules', '@melsec-jw', 'plc')
+    const maps = readdirSync(join(installed, 'dist'), { recursive: true, encoding: 'utf8' })
+      .filter((name) => name.endsWith('.d.ts.map'))
+      .map((name) => join(installed, 'dist', name))
+    expect(maps.length).toBeGreaterThan(100)
+    const missing = maps.filter((map) => {
+      const { sources } = JSON.parse(readFileSync(map, 'utf8')) as { sources: string[] }
+      return !sources.every((source) => existsSync(join(dirname(map), source)))
+    })
+    expect(missing).toEqual([])
   })
 
   test('has the scripts that the dialogs of its nodes share', () => {
