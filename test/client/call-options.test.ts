@@ -55,14 +55,17 @@ const calls: Readonly<Record<string, [run: (options: object) => unknown, own: st
   'control.pause': [(x) => client.control.pause(x), 'force, verify, timeout, signal, caller'],
   'control.latchClear': [(x) => client.control.latchClear(x), 'value, timeout, signal, caller'],
   'control.reset': [(x) => client.control.reset(x), 'timeout, signal, caller'],
-  'labels.read': [(x) => client.labels.read('Speed', x), 'encoding, trim, asciiWordOrder, timeout, signal, caller'],
+  'labels.read': [
+    (x) => client.labels.read('Speed', x),
+    'encoding, trimSpaces, asciiWordOrder, timeout, signal, caller',
+  ],
   'labels.write': [
     (x) => client.labels.write({ Speed: 1 }, x),
-    'encoding, trim, asciiWordOrder, timeout, signal, caller',
+    'encoding, trimSpaces, asciiWordOrder, timeout, signal, caller',
   ],
   'labels.writeEach': [
     (x) => client.labels.writeEach({ Speed: 1 }, x),
-    'encoding, trim, asciiWordOrder, timeout, signal, caller',
+    'encoding, trimSpaces, asciiWordOrder, timeout, signal, caller',
   ],
   'memory.read': [(x) => client.memory.read(0, 1, x), 'timeout, signal, caller'],
   'memory.write': [(x) => client.memory.write(0, [1], x), 'timeout, signal, caller'],

@@ -53,7 +53,7 @@ const values: readonly (readonly [title: string, value: unknown])[] = [
   ['{ address: D0, type: null }', { address: 'D0', type: null }],
   ['{ address: D0, wordOrder: 5 }', { address: 'D0', wordOrder: 5 }],
   ['{ address: D0, encoding: x }', { address: 'D0:STRING(2)', encoding: 'x' }],
-  ['{ address: D0, trim: 5 }', { address: 'D0:STRING(2)', trim: 5 }],
+  ['{ address: D0, trimSpaces: 5 }', { address: 'D0:STRING(2)', trimSpaces: 5 }],
   ['{ a: null }', { a: null }],
   ['{ D0: undefined }', { D0: undefined }],
   ['{ D0: {} }', { D0: {} }],

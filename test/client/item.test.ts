@@ -86,7 +86,10 @@ describe('a type, a count, a range', () => {
 
 describe('an object', () => {
   test('carries what the text does not', () => {
-    const item = parseItem({ address: 'D100', type: 'REAL', count: 10, wordOrder: 'high-first', trim: true }, options)
+    const item = parseItem(
+      { address: 'D100', type: 'REAL', count: 10, wordOrder: 'high-first', trimSpaces: true },
+      options,
+    )
     expect(item).toEqual({
       text: 'D100:REAL[10]',
       address: { device: 'D', number: 100 },

@@ -143,9 +143,9 @@ describe('read', () => {
     expect(plc.labels.get('Line1.Speed')).toBe(1)
   })
 
-  test('options of an item: count, type, encoding and trim, but no order', async () => {
+  test('options of an item: count, type, encoding and trimSpaces, but no order', async () => {
     await expect(client.read({ address: 'Line1.Values[1]', count: 3, type: 'INT' })).resolves.toEqual([2, 3, 4])
-    await expect(client.read({ address: 'Line1.Name', trim: true })).resolves.toBe('Apple')
+    await expect(client.read({ address: 'Line1.Name', trimSpaces: true })).resolves.toBe('Apple')
     const japanese = { address: 'Line1.Name', encoding: 'shift-jis' } as const
     await client.write(japanese, '林檎')
     await expect(client.read(japanese)).resolves.toBe('林檎')

@@ -28,15 +28,13 @@ import { formatType, parseType, type TypeName, typeNames, type ValueType, valueT
 import { otherNotation } from './notation'
 
 /** An item with options of its own; what is left out is the client's. */
-export interface ItemOptions extends Omit<ValueFormat, 'trimSpaces'> {
+export interface ItemOptions extends ValueFormat {
   /** Any text an item can be, e.g. `D100`, `D100:REAL[10]`, `M0..M15`. */
   readonly address: string
   /** e.g. `REAL`, when it is not in the address. */
   readonly type?: string
   /** Number of values of an array, when it is not in the address. */
   readonly count?: number
-  /** Cut spaces at the end of text that is read. */
-  readonly trim?: boolean
 }
 
 export type Item = string | ItemOptions
@@ -152,7 +150,7 @@ const DEFAULT_TYPES = { bit: 'BOOL', word: 'INT', doubleWord: 'DINT' } as const
 
 type Fail = (code: RequestErrorCode, message: string) => never
 
-const ITEM_FIELDS = ['address', 'type', 'count', 'wordOrder', 'byteOrder', 'encoding', 'trim'] as const
+const ITEM_FIELDS = ['address', 'type', 'count', 'wordOrder', 'byteOrder', 'encoding', 'trimSpaces'] as const
 
 /** An item whose address is no text. */
 export function badAddress(address: unknown): RequestError {
@@ -330,8 +328,9 @@ function checkEnd(count: number, device: ParsedDevice, type: ValueType, fail: Fa
   fail('OUT_OF_RANGE', 'it ends behind the last device number there can be.')
 }
 
-function formatOf({ wordOrder, byteOrder, encoding, trim }: ItemOptions, usual: ValueFormat): ValueFormat {
-  const isUsual = wordOrder === undefined && byteOrder === undefined && encoding === undefined && trim === undefined
+function formatOf({ wordOrder, byteOrder, encoding, trimSpaces }: ItemOptions, usual: ValueFormat): ValueFormat {
+  const isUsual =
+    wordOrder === undefined && byteOrder === undefined && encoding === undefined && trimSpaces === undefined
   const format: ValueFormat = isUsual
     ? usual
     : {
@@ -339,7 +338,7 @@ function formatOf({ wordOrder, byteOrder, encoding, trim }: ItemOptions, usual: 
         ...(wordOrder === undefined ? {} : { wordOrder }),
         ...(byteOrder === undefined ? {} : { byteOrder }),
         ...(encoding === undefined ? {} : { encoding }),
-        ...(trim === undefined ? {} : { trimSpaces: trim }),
+        ...(trimSpaces === undefined ? {} : { trimSpaces }),
       }
   checkFormat(format)
   return format

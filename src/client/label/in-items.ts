@@ -49,7 +49,7 @@ export function itemText(item: Item | undefined): string {
  */
 export function parseLabelItem(item: Item): LabelInItems {
   const given = checkedItem(item)
-  const { wordOrder, byteOrder, encoding, trim } = given
+  const { wordOrder, byteOrder, encoding, trimSpaces } = given
   for (const [field, value] of Object.entries({ wordOrder, byteOrder })) {
     if (value === undefined) continue
     const message = `${given.address}: a label takes no ${field}: the PLC says its type.`
@@ -63,7 +63,7 @@ export function parseLabelItem(item: Item): LabelInItems {
     ...(count === undefined ? {} : { count }),
     ...(type === undefined ? {} : { type }),
     ...(encoding === undefined ? {} : { encoding }),
-    ...(trim === undefined ? {} : { trim }),
+    ...(trimSpaces === undefined ? {} : { trimSpaces }),
   })
   return { text: given.address, label }
 }

@@ -11,7 +11,7 @@ export interface LabelFormat {
   /** Character code of STRING labels. Default `ascii`. */
   readonly encoding?: Encoding
   /** Cut spaces at the end of text that is read. */
-  readonly trim?: boolean
+  readonly trimSpaces?: boolean
   /**
    * ASCII code only: which word of a value of two or four words comes first. The manual does not say it clearly, and the
    * wrong one gives wrong values, so such labels are refused in ASCII code until this says it (try it on a label whose
@@ -49,7 +49,7 @@ const FIELDS = {
   count: true,
   type: true,
   encoding: true,
-  trim: true,
+  trimSpaces: true,
   asciiWordOrder: true,
 } as const satisfies Record<keyof LabelItemOptions, true>
 
@@ -82,11 +82,11 @@ export function askedLabel(item: LabelItem): AskedLabel {
       name,
     )
   }
-  const { count, type, encoding, trim, asciiWordOrder } = item
+  const { count, type, encoding, trimSpaces, asciiWordOrder } = item
   if (count !== undefined) checkElements(address, count)
   const format: LabelFormat = {
     ...(encoding === undefined ? {} : { encoding }),
-    ...(trim === undefined ? {} : { trim }),
+    ...(trimSpaces === undefined ? {} : { trimSpaces }),
     ...(asciiWordOrder === undefined ? {} : { asciiWordOrder }),
   }
   checkLabelFormat(format)
@@ -117,10 +117,10 @@ function givenType({ name }: LabelAddress, text: string): ValueType {
 }
 
 /** @throws RequestError BAD_OPTION */
-export function checkLabelFormat({ encoding, trim, asciiWordOrder }: LabelFormat): void {
+export function checkLabelFormat({ encoding, trimSpaces, asciiWordOrder }: LabelFormat): void {
   checkFormat({
     ...(encoding === undefined ? {} : { encoding }),
-    ...(trim === undefined ? {} : { trimSpaces: trim }),
+    ...(trimSpaces === undefined ? {} : { trimSpaces }),
   })
   if (asciiWordOrder === undefined || ['low-first', 'high-first'].includes(asciiWordOrder)) return
   const message = `asciiWordOrder is ${shown(asciiWordOrder)}; it must be low-first or high-first.`

@@ -63,7 +63,7 @@ export interface Labels {
   ): Promise<Record<string, LabelWriteResult>>
 }
 
-const LABEL_OPTIONS: OptionNames<LabelFormat> = { encoding: true, trim: true, asciiWordOrder: true }
+const LABEL_OPTIONS: OptionNames<LabelFormat> = { encoding: true, trimSpaces: true, asciiWordOrder: true }
 
 /** What the client lends. */
 export interface LabelParts {
@@ -102,9 +102,9 @@ class LabelAccess implements Labels {
   /** One call: its requests, and its options with the client's own behind them. @throws RequestError BAD_OPTION */
   #opened(options: LabelOptions): { readonly requests: LabelRequests; readonly format: LabelFormat } {
     const call = callOptionsOf(options, LABEL_OPTIONS)
-    checkBooleans(options, ['trim'])
-    const { encoding, trim, asciiWordOrder } = options
-    const own = { encoding, trim, asciiWordOrder }
+    checkBooleans(options, ['trimSpaces'])
+    const { encoding, trimSpaces, asciiWordOrder } = options
+    const own = { encoding, trimSpaces, asciiWordOrder }
     const given: LabelFormat = Object.fromEntries(Object.entries(own).filter(([, value]) => value !== undefined))
     checkLabelFormat(given)
     return { requests: new LabelRequests(this.#parts.call(call)), format: { ...this.#parts.format, ...given } }

@@ -74,10 +74,10 @@ export function checkGivenType(given: ValueType | undefined, { name, type, size,
 
 /** @throws RequestError BAD_OPTION */
 function formatOf({ name, type, size }: LabelType, code: DataCode, given: LabelFormat): ValueFormat {
-  const { encoding, trim, asciiWordOrder } = given
+  const { encoding, trimSpaces, asciiWordOrder } = given
   const format: ValueFormat = {
     ...(encoding === undefined ? {} : { encoding }),
-    ...(trim === undefined ? {} : { trimSpaces: trim }),
+    ...(trimSpaces === undefined ? {} : { trimSpaces }),
   }
   if (code === 'binary' || size === 1 || type.length !== undefined) return format
   if (asciiWordOrder === undefined) {

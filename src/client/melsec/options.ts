@@ -232,7 +232,7 @@ function profileOf({ profile: given, profileOverrides, xyRadix }: MelsecClientOp
 function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }: MelsecClientOptions): LabelFormat {
   return {
     ...(encoding === undefined ? {} : { encoding }),
-    ...(trimSpaces === undefined ? {} : { trim: trimSpaces }),
+    ...(trimSpaces === undefined ? {} : { trimSpaces }),
     ...(asciiWordOrder === undefined ? {} : { asciiWordOrder }),
   }
 }
