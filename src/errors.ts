@@ -22,6 +22,7 @@ export const REQUEST_CODES = [
   'UNSUPPORTED', // this profile, frame or code does not have it
   'NOT_PERMITTED', // allowWrites / allowControl is off
 ] as const
+/** What is wrong with what the caller gave. */
 export type RequestErrorCode = (typeof REQUEST_CODES)[number]
 /** The PLC refused: see `endCode`. */
 export type EndCodeErrorCode = 'END_CODE'
@@ -36,7 +37,9 @@ export const PROTOCOL_CODES = [
   'ECHO_MISMATCH', // route, command or another echoed field differs from the request
   'UNEXPECTED_ANSWER', // an answer nobody asked for, where no serial number tells which request it belongs to
 ] as const
+/** What is wrong with what the peer sent. */
 export type ProtocolErrorCode = (typeof PROTOCOL_CODES)[number]
+/** No answer before the deadline. */
 export type TimeoutErrorCode = 'TIMEOUT'
 export const CONNECTION_CODES = [
   'CONNECT_FAILED',
@@ -46,12 +49,21 @@ export const CONNECTION_CODES = [
   'SILENT', // connected, but nothing answers
   'OFFLINE', // failing fast while the connection is being restored
 ] as const
+/** What is wrong with the connection. */
 export type ConnectionErrorCode = (typeof CONNECTION_CODES)[number]
 export const CLOSED_CODES = ['CLOSED', 'ABORTED', 'QUEUE_FULL', 'OVERLOADED'] as const
+/**
+ * Who ended it on this side: `CLOSED` by `close()`, `ABORTED` by a signal, `QUEUE_FULL` and `OVERLOADED` because more
+ * is asked than the PLC answers.
+ */
 export type ClosedErrorCode = (typeof CLOSED_CODES)[number]
+/** Remote control was carried out, but the CPU is not in the state it was to be in. */
 export type VerifyErrorCode = 'NOT_VERIFIED'
+/** A call of several requests failed when some had changed the PLC already. */
 export type UnfinishedErrorCode = 'UNFINISHED'
+/** Of a write of many, one or more were not written. */
 export type WriteErrorCode = 'NOT_ALL_WRITTEN'
+/** Every code of an error of this package. Each belongs to one class. */
 export type PlcErrorCode =
   | RequestErrorCode
   | EndCodeErrorCode
@@ -108,8 +120,10 @@ function brand(kind: string): symbol {
 /** Bad address, value, option or message, or not permitted. The connection lives. */
 export class RequestError extends BaseError {
   protected static override readonly kind: string = 'RequestError'
+  /** Always `notSent`: it is found before anything is sent. */
   readonly outcome = 'notSent'
   constructor(
+    /** What is wrong. */
     readonly code: RequestErrorCode,
     message: string,
     /** The item, field or option the message is about, when there is one. */
@@ -125,6 +139,7 @@ export class RequestError extends BaseError {
  * abnormal codes too. `jw`: the result codes of Sharp JW.
  */
 export const endCodeFamilies = ['slmp', '1E', '1C', 'jw'] as const
+/** Whose number an end code is. */
 export type EndCodeFamily = (typeof endCodeFamilies)[number]
 
 /** What an end code is about. */
@@ -139,10 +154,12 @@ export const endCodeAbouts = [
   'transmission', // the request arrived damaged
   'unknown', // nobody knows
 ] as const
+/** What an end code is about. */
 export type EndCodeAbout = (typeof endCodeAbouts)[number]
 
 /** What an `EndCodeError` knows beside its number. */
 export interface EndCodeDetail {
+  /** Whose number it is. */
   readonly family: EndCodeFamily
   /** Default `unknown`. */
   readonly about?: EndCodeAbout
@@ -168,16 +185,30 @@ export interface EndCodeDetail {
  */
 export class EndCodeError extends BaseError {
   protected static override readonly kind: string = 'EndCodeError'
+  /** Always `END_CODE`: see `endCode`. */
   readonly code = 'END_CODE'
+  /** `refused`; `unknown` where a write or control command may have been carried out in part. */
   readonly outcome: 'refused' | 'unknown'
+  /** Whose number it is: the same one means something else in another family. */
   readonly family: EndCodeFamily
+  /** What it is about, as far as it is known. */
   readonly about: EndCodeAbout
+  /** `false`: the PLC did nothing of it. Undefined: it may have been carried out, all or in part. */
   readonly carriedOut: false | undefined
+  /** Manual's name of the command, e.g. `Read (word units)`. */
   readonly command: string | undefined
+  /** Name of the command in its set, e.g. `readWords`. */
   readonly commandName: string | undefined
+  /** Station that reported the error, where the frame says so. */
   readonly station: string | undefined
+  /** Of a 1E frame with end code 5BH: the code behind it, which says why. */
   readonly abnormalCode: number | undefined
+  /**
+   * What the code means, in English; `explainEndCode()` has other languages. Undefined for a number nobody has a text
+   * for.
+   */
   readonly meaning: string | undefined
+  /** What to do about it, in English. */
   readonly remedy: string | undefined
   constructor(
     /** The number the PLC sent, e.g. 0xC056. */
@@ -202,8 +233,10 @@ export class EndCodeError extends BaseError {
 /** The peer broke the protocol. The connection is dropped, because the byte stream can no longer be trusted. */
 export class ProtocolError extends BaseError {
   protected static override readonly kind: string = 'ProtocolError'
+  /** Always `unknown`: what came cannot be believed, so nobody knows what the PLC did. */
   readonly outcome = 'unknown'
   constructor(
+    /** What is wrong. */
     readonly code: ProtocolErrorCode,
     message: string,
     /** Offset in `bytes` where it went wrong. */
@@ -218,9 +251,11 @@ export class ProtocolError extends BaseError {
 /** No answer before the deadline. */
 export class TimeoutError extends BaseError {
   protected static override readonly kind: string = 'TimeoutError'
+  /** Always `TIMEOUT`. */
   readonly code = 'TIMEOUT'
   constructor(
     message: string,
+    /** `notSent`: the time was over before the request left. `unknown`: the PLC may have carried it out. */
     readonly outcome: 'notSent' | 'unknown',
     /** Ranked causes, most likely first, when the silence could be explained. */
     readonly causes: readonly string[] = [],
@@ -233,8 +268,10 @@ export class TimeoutError extends BaseError {
 export class ConnectionError extends BaseError {
   protected static override readonly kind: string = 'ConnectionError'
   constructor(
+    /** What is wrong. */
     readonly code: ConnectionErrorCode,
     message: string,
+    /** `notSent`: the request did not leave. `unknown`: the connection was lost while it was under way. */
     readonly outcome: 'notSent' | 'unknown' = 'notSent',
     cause?: unknown,
     /** Ranked causes, most likely first. */
@@ -248,8 +285,10 @@ export class ConnectionError extends BaseError {
 export class ClosedError extends BaseError {
   protected static override readonly kind: string = 'ClosedError'
   constructor(
+    /** Who ended it. */
     readonly code: ClosedErrorCode,
     message: string,
+    /** `notSent`: the request did not leave. `unknown`: it was under way. */
     readonly outcome: 'notSent' | 'unknown' = 'notSent',
     cause?: unknown,
   ) {
@@ -263,7 +302,9 @@ export class ClosedError extends BaseError {
  */
 export class VerifyError extends BaseError {
   protected static override readonly kind: string = 'VerifyError'
+  /** Always `NOT_VERIFIED`. */
   readonly code = 'NOT_VERIFIED'
+  /** Always `unknown`: the command may take effect later, e.g. when somebody turns the switch. */
   readonly outcome = 'unknown'
   constructor(
     message: string,
@@ -282,7 +323,9 @@ export class VerifyError extends BaseError {
  */
 export class UnfinishedError extends BaseError {
   protected static override readonly kind: string = 'UnfinishedError'
+  /** Always `UNFINISHED`. */
   readonly code = 'UNFINISHED'
+  /** Always `unknown`: a part of it was carried out. */
   readonly outcome = 'unknown'
   constructor(message: string, cause: unknown) {
     super(UnfinishedError.kind, message, cause)
@@ -301,10 +344,13 @@ export type WriteResult =
  */
 export class WriteError extends BaseError {
   protected static override readonly kind: string = 'WriteError'
+  /** Always `NOT_ALL_WRITTEN`. */
   readonly code = 'NOT_ALL_WRITTEN'
   constructor(
     message: string,
+    /** About the whole: `unknown` when anything was written or may have been. */
     readonly outcome: Outcome,
+    /** What became of each item, in their order. */
     readonly results: readonly WriteResult[],
     cause: PlcError,
   ) {
@@ -314,36 +360,58 @@ export class WriteError extends BaseError {
 
 /** What a cause is as data, when it is no error of this package. */
 export interface CauseData {
+  /** Name of its class. */
   readonly name: string
+  /** Its message. */
   readonly message: string
 }
 
 /** An error as plain data. What a class does not have is missing. */
 export interface PlcErrorData {
+  /** Name of its class, e.g. `RequestError`. */
   readonly name: string
+  /** See `error.code` of the class. */
   readonly code: string
+  /** What, where and what to do. */
   readonly message: string
+  /** Whether the PLC may have been changed. */
   readonly outcome: Outcome
+  /** Of a RequestError: the item, field or option it is about. */
   readonly field?: string
+  /** Of an EndCodeError: the number the PLC sent. */
   readonly endCode?: number
+  /** Of an EndCodeError: whose number it is. */
   readonly family?: EndCodeFamily
+  /** Of an EndCodeError: what it is about. */
   readonly about?: EndCodeAbout
+  /** Of an EndCodeError: `false` when nothing of it was done. */
   readonly carriedOut?: false
+  /** Of an EndCodeError: the manual's name of the command. */
   readonly command?: string
+  /** Of an EndCodeError: name of the command in its set. */
   readonly commandName?: string
+  /** Of an EndCodeError: the station that reported it. */
   readonly station?: string
+  /** Of an EndCodeError of a 1E frame: the code behind 5BH. */
   readonly abnormalCode?: number
+  /** Of an EndCodeError: what it means, in English. */
   readonly meaning?: string
+  /** Of an EndCodeError: what to do, in English. */
   readonly remedy?: string
+  /** Of a ProtocolError: where in `bytes` it went wrong. */
   readonly offset?: number
   /** Hexadecimal digits. */
   readonly bytes?: string
+  /** Of a TimeoutError or ConnectionError: ranked causes, most likely first. */
   readonly causes?: readonly string[]
+  /** Of a VerifyError: the state the CPU told last. */
   readonly state?: string
+  /** Of a WriteError: what became of each item. */
   readonly results?: readonly (
     | { readonly item: string; readonly ok: true }
     | { readonly item: string; readonly ok: false; readonly error: PlcErrorData }
   )[]
+  /** What was behind it. */
   readonly cause?: PlcErrorData | CauseData
 }
 
