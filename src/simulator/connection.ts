@@ -24,12 +24,15 @@ import type { Counters } from './statistics'
 
 /** A request and what became of it, for programs and logs. */
 export interface RequestEvent {
+  /** Number of the connection, counting from 1. */
   readonly connection: number
   /** The client, e.g. `127.0.0.1:50231`. */
   readonly remote: string
+  /** Frame it came in. */
   readonly frame: FrameName
   /** Name of the command; undefined when it is none that is declared, or its data are wrong. */
   readonly command: CommandName | undefined
+  /** What the command does; undefined when it is none that is declared. */
   readonly effect: Effect | undefined
   /** The request as decoded; passwords are asterisks. */
   readonly message: Message | undefined

@@ -4,18 +4,26 @@ import { RequestError } from '../errors'
 import type { Profile } from '../melsec/profiles/profile'
 import { Refusal, requestErrors } from './refusal'
 
+/** What the CPU does. */
 export type CpuState = 'RUN' | 'STOP' | 'PAUSE'
+/** Positions of the switch on the module. */
 export type SwitchPosition = 'RUN' | 'STOP'
 
 /** A remote STOP or PAUSE and the external device that did it. */
 export interface Hold {
+  /** What it holds the CPU in. */
   readonly state: 'STOP' | 'PAUSE'
+  /** The external device, e.g. the address of a computer. */
   readonly owner: string
 }
 
+/** The CPU does something else than before. */
 export interface StateChange {
+  /** What it does now. */
   readonly state: CpuState
+  /** What it did before. */
   readonly previous: CpuState
+  /** By its switch, by remote control, or because it starts again. */
   readonly reason: 'switch' | 'remote' | 'restart'
 }
 

@@ -1,11 +1,14 @@
 // The error LED of the Ethernet port and what lit it.
 
+/** An error that lit the LED. */
 export interface LoggedError {
   /** Milliseconds since 1970. */
   readonly time: number
+  /** The end code that was answered. */
   readonly endCode: number
   /** The client, e.g. `127.0.0.1:50231`. */
   readonly remote: string
+  /** What was wrong, in English. */
   readonly message: string
 }
 

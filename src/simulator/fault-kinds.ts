@@ -20,6 +20,7 @@ export interface ChoiceParameter {
   /** What it is when it is left out. */
   readonly default: string
 }
+/** A parameter of a fault: a number, or one of some texts. */
 export type FaultParameter = NumberParameter | ChoiceParameter
 
 interface FaultRow {
@@ -107,6 +108,7 @@ export const faultKinds = {
 } as const satisfies Readonly<Record<string, FaultRow>>
 
 type Kinds = typeof faultKinds
+/** Ways in which a simulated PLC can misbehave. */
 export type FaultKind = keyof Kinds
 
 type ValueOfParameter<P> = P extends { readonly oneOf: readonly (infer T)[] } ? T : number

@@ -7,6 +7,7 @@ import { type FaultAction, type FaultKind, type FaultParameter, type FaultSettin
 export interface FaultSubject {
   /** Name of the command; undefined when it is none that is declared. */
   readonly command: CommandName | undefined
+  /** Its subcommand. */
   readonly subcommand: number
   /** Number of the connection, counting from 1. */
   readonly connection: number
@@ -33,6 +34,7 @@ export type Fault = FaultAction & FaultAim
 
 /** A fault that is on. */
 export interface ActiveFault {
+  /** As it was given. */
   readonly fault: Fault
   /** How often it has struck. */
   readonly struck: number

@@ -17,10 +17,13 @@ export interface FileOwner {
 
 /** A file that Open File has locked. */
 export interface OpenFile {
+  /** Its file pointer number. */
   readonly pointer: number
   /** External device. */
   readonly owner: string
+  /** What it was opened for. */
   readonly mode: 'read' | 'write'
+  /** Number of the drive. */
   readonly drive: number
   /** e.g. `LOG\\LINE.CSV` */
   readonly name: string

@@ -15,6 +15,7 @@ import { Refusal, requestErrors } from './refusal'
 
 /** A label: its type as in `parseType` (without BCD and 64-bit integers), or a timer or counter, which has members S, C and N. */
 export interface SimulatedLabel {
+  /** Its type. */
   readonly type: string
   /** Elements of an array, one to three numbers: `[10]` is `[0]` to `[9]`. Default: no array. */
   readonly dimensions?: readonly number[]

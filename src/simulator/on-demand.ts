@@ -11,6 +11,7 @@ import type { AnyHead } from './any-frame'
 /** Bytes, low byte of each word first; or words, 0 to 65535 each. */
 export type OnDemandData = Uint8Array | readonly number[]
 
+/** Who gets data that are sent unasked. */
 export interface OnDemandOptions {
   /** Numbers of the connections that get it, see `connections`. Default: all. */
   readonly connections?: readonly number[]

@@ -30,9 +30,11 @@ export interface PortOptions {
   readonly port?: number
 }
 
+/** What a simulated PLC is like. All of it can be left out. */
 export interface PlcSimulatorOptions {
   /** Default `iq-r`. */
   readonly profile?: ProfileId | ProfileInfo
+  /** What differs from the profile. */
   readonly profileOverrides?: ProfileOverrides
   /** Communication data code of the port. The other one is answered by silence. Default `binary`. */
   readonly code?: DataCode

@@ -9,16 +9,21 @@ export type PlantVariant = 'iq-r' | 'iq-f'
 
 /** One value of the demo plant. */
 export interface PlantTag {
+  /** Name of the tag. */
   readonly name: PlantTagName
   /** Address with type, as the client takes it, e.g. `D100:REAL`. */
   readonly address: string
+  /** What it is, in English. */
   readonly title: string
+  /** Unit of measurement. */
   readonly unit?: string
   /** Made to be written by people; the program overwrites the others. */
   readonly writable: boolean
   /** What the program accepts. */
   readonly min?: number
+  /** The most it can be. */
   readonly max?: number
+  /** Character code of text, when it is not ASCII. */
   readonly encoding?: NonNullable<ValueFormat['encoding']>
 }
 
@@ -77,6 +82,7 @@ const ROWS = [
   { name: 'operator', address: 'D150:WSTRING(16)', title: 'Name of the operator (UTF-16)', writable: true },
 ] as const satisfies readonly TagRow[]
 
+/** Names of the values of the demo plant. */
 export type PlantTagName = (typeof ROWS)[number]['name']
 
 function tagsOf(variant: PlantVariant): readonly PlantTag[] {

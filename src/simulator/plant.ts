@@ -7,6 +7,7 @@ import { type Actuators, TANK_CAPACITY, Tank } from './tank'
 
 export { demoPlantTags, type PlantTag, type PlantTagName, type PlantVariant, plantVariantOf } from './plant-tags'
 
+/** How the mixing tank of the demo runs. */
 export interface DemoPlantOptions {
   /** ms between two scans of the program. Default 200. */
   readonly interval?: number
@@ -14,6 +15,7 @@ export interface DemoPlantOptions {
   readonly autoStart?: boolean
 }
 
+/** The mixing tank of the demo, while it runs. */
 export interface DemoPlant {
   /** Ends it; the devices keep their values. Also done by `close()` of the PLC. */
   stop(): void

@@ -37,7 +37,9 @@ export type { PlcSimulatorOptions } from './options'
 
 /** Where a port listens. */
 export interface Endpoint {
+  /** Address it listens on. */
   readonly host: string
+  /** Number of the port. */
   readonly port: number
 }
 
@@ -45,17 +47,20 @@ export interface Endpoint {
 export interface ConnectionInfo {
   /** Counting from 1. */
   readonly id: number
+  /** TCP (`stream`) or UDP (`datagram`). */
   readonly kind: 'stream' | 'datagram'
   /** Address and port, or the name given to `connect()`. */
   readonly remote: string
   /** Milliseconds since 1970. */
   readonly since: number
+  /** Requests so far. */
   readonly requests: number
 }
 
 /** A write that was carried out. */
 export type WriteEvent = RequestEvent & { readonly command: CommandName }
 
+/** What a simulated PLC tells those who listen. */
 export interface SimulatorEvents {
   /** RUN, STOP or PAUSE. */
   state: StateChange
@@ -73,6 +78,7 @@ export interface SimulatorEvents {
   close: { readonly time: number }
 }
 
+/** How a client is joined to the simulated PLC in memory. */
 export interface ConnectOptions {
   /** As TCP (`stream`, default) or as UDP. */
   readonly kind?: 'stream' | 'datagram'
@@ -84,9 +90,11 @@ export interface ConnectOptions {
   readonly device?: string
 }
 
+/** A simulated PLC. Made by `createPlcSimulator()`. */
 export interface PlcSimulator {
   /** The family it is of. */
   readonly profile: ProfileInfo
+  /** Its time. */
   readonly clock: Clock
   /** Device memory as a program in the PLC sees it. */
   readonly memory: ProgramMemory
@@ -104,7 +112,9 @@ export interface PlcSimulator {
   readonly tcp: Endpoint | undefined
   /** Where UDP listens. */
   readonly udp: Endpoint | undefined
+  /** Clients at the moment. */
   readonly connections: readonly ConnectionInfo[]
+  /** What was counted since it was made. */
   readonly statistics: SimulatorStatistics
   /** @throws ConnectionError PORT_UNAVAILABLE; then nothing listens. */
   listen(): Promise<void>

@@ -5,6 +5,7 @@ import type { FileTime } from '../melsec/file/time'
 export interface SimulatedFile {
   /** Text is written in UTF-8. */
   readonly data: string | Uint8Array
+  /** Whether it may not be changed. Default false. */
   readonly readOnly?: boolean
   /** Default: none. */
   readonly password?: string

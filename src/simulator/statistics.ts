@@ -4,6 +4,7 @@ export interface SimulatorStatistics {
   readonly connections: number
   /** Ended at once because every entry was taken, or by a fault switch. */
   readonly turnedAway: number
+  /** Requests that could be read. */
   readonly requests: number
   /** Answers made; a fault switch may have lost them afterwards. */
   readonly answers: number
@@ -15,7 +16,9 @@ export interface SimulatorStatistics {
   readonly discarded: number
   /** On-demand frames sent, one for each client. */
   readonly onDemands: number
+  /** Bytes that came from clients. */
   readonly bytesReceived: number
+  /** Bytes that went to clients. */
   readonly bytesSent: number
 }
 
