@@ -7,6 +7,7 @@ import { abortedBeforeSending, asPlcError } from './failure'
 export interface CallOptions {
   /** ms from now until nobody waits any more: connecting, queueing, sending and answering included. */
   readonly timeout?: number
+  /** Ends the call: with outcome `notSent` as long as it waits, `unknown` when it is under way. */
   readonly signal?: AbortSignal
   /**
    * Who asks, as a text or any object. Calls of one caller wait for one another, and callers take turns, so that one who

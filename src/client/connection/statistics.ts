@@ -2,13 +2,21 @@
 
 /** Round-trip times in ms of the last answers. */
 export interface RoundTrip {
+  /** Answers it is about, up to 1024. */
   readonly count: number
+  /** Of the last answer. */
   readonly last: number
+  /** The shortest. */
   readonly min: number
+  /** The mean. */
   readonly mean: number
+  /** Half of them took no longer. */
   readonly p50: number
+  /** 95 of 100 took no longer. */
   readonly p95: number
+  /** 99 of 100 took no longer. */
   readonly p99: number
+  /** The longest. */
   readonly max: number
 }
 
@@ -16,6 +24,7 @@ export interface RoundTrip {
 export interface Statistics {
   /** Requests of the program. The first request on each connection, which only proves it, counts nowhere but in bytes. */
   readonly requests: number
+  /** Requests that were answered, also with an end code. */
   readonly answered: number
   /** Answers with an end code other than 0. */
   readonly refused: number
@@ -23,6 +32,7 @@ export interface Statistics {
   readonly timeouts: number
   /** Requests that waited until an answer could not come in time any more, and were not sent: more is asked than the PLC answers. */
   readonly overloaded: number
+  /** Calls ended by their signal. */
   readonly aborted: number
   /** Times that the PLC sent what the protocol does not allow. */
   readonly protocolErrors: number
@@ -34,9 +44,13 @@ export interface Statistics {
   readonly connects: number
   /** Connections that ended otherwise than by `close()`. */
   readonly disconnects: number
+  /** Bytes given to the transport. */
   readonly bytesSent: number
+  /** Bytes that came from the transport. */
   readonly bytesReceived: number
+  /** Requests that wait now. */
   readonly queued: number
+  /** Requests under way now. */
   readonly inFlight: number
   /** Undefined until the first answer. */
   readonly roundTrip: RoundTrip | undefined

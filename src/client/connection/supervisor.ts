@@ -2,6 +2,7 @@
 // Time is an argument; the shell (connection.ts) owns the transport and the timer.
 import type { PlcError } from '../../errors'
 
+/** Where a connection stands. `idle`: nothing was asked yet. */
 export type ConnectionStateName = 'idle' | 'connecting' | 'connected' | 'waiting' | 'closed'
 
 /** Where a connection stands: the name says what else there is. */

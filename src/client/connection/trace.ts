@@ -11,7 +11,9 @@ import type { TracedFrame } from './connection-options'
 export interface TraceEntry {
   /** Milliseconds since 1970. */
   readonly time: number
+  /** Seen from this side. */
   readonly direction: 'sent' | 'received'
+  /** As they went over the wire, secrets aside. */
   readonly bytes: Buffer
   /** The frames that are complete with these bytes, field by field; made when it is asked for. */
   readonly frames: readonly FrameExplanation[]

@@ -24,6 +24,7 @@ export interface FileOptions extends CallOptions {
   readonly password?: string
 }
 
+/** What a call that reads a file may say. */
 export interface FileReadOptions extends FileOptions {
   /** Told after each request. What it throws is not listened to. */
   readonly onProgress?: (progress: FileProgress) => void
@@ -31,7 +32,9 @@ export interface FileReadOptions extends FileOptions {
   readonly limit?: number
 }
 
+/** What a call that writes a file may say. */
 export interface FileWriteOptions extends FileOptions {
+  /** Told after each request. What it throws is not listened to. */
   readonly onProgress?: (progress: FileProgress) => void
   /**
    * `new` (default): there must be no file of this name. `replace`: the new content goes to another file of the same
@@ -43,6 +46,7 @@ export interface FileWriteOptions extends FileOptions {
   readonly size?: number
 }
 
+/** What a call that copies a file may say. */
 export interface CopyOptions extends FileOptions {
   /** Password the copy gets; default: that of the source. */
   readonly destinationPassword?: string
@@ -81,6 +85,7 @@ export interface Files {
   copy(from: FilePath, to: FilePath, options?: CopyOptions): Promise<void>
   /** Deletes a file. */
   remove(file: FilePath, options?: FileOptions): Promise<void>
+  /** Makes a file read-only, or takes it off again. Needs `allowWrites`. */
   setAttribute(file: FilePath, attribute: 'readOnly' | 'readWrite', options?: FileOptions): Promise<void>
   /** Date of the last change, in the PLC's time zone; see `fileTimeOf` for a `Date`. */
   setDate(file: FilePath, date: FileTime, options?: CallOptions): Promise<void>

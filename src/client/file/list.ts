@@ -9,11 +9,13 @@ import { type FilePlace, inside } from './place'
 
 /** A file or directory as the PLC lists it. */
 export interface FileEntry {
+  /** Name within its directory. */
   readonly name: string
   /** With its drive, `4:\LOG\LINE.CSV`: what the other calls take. */
   readonly path: string
   /** `system`: not to be touched, says the manual. */
   readonly kind: 'file' | 'directory' | 'system'
+  /** Whether it may not be changed. */
   readonly readOnly: boolean
   /** bytes; 0 of a directory */
   readonly size: number

@@ -7,7 +7,9 @@ import type { FilePlace } from './place'
 
 /** How far a transfer is, in bytes. */
 export interface FileProgress {
+  /** Bytes done so far. */
   readonly done: number
+  /** Bytes there will be. */
   readonly total: number
 }
 

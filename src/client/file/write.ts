@@ -20,6 +20,7 @@ import {
 import { type FilePlace, inside } from './place'
 import type { FileProgress } from './read'
 
+/** What a write does about a file that is there: refuses, replaces it as a whole, or writes into it. */
 export type WriteMode = 'new' | 'replace' | 'overwrite'
 
 /** What is written: bytes, or a stream or another iterable of bytes. */

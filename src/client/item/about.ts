@@ -94,8 +94,11 @@ function isAbout(error: PlcError, item: string): boolean {
 
 /** The result of an item that may have failed. */
 export interface ItemResult {
+  /** The item as it was given. */
   readonly item: string
+  /** Whether it worked. */
   readonly ok: boolean
+  /** Why not. */
   readonly error?: PlcError
 }
 

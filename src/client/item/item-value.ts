@@ -66,7 +66,9 @@ export type Items = readonly Item[] | Readonly<Record<string, Item>>
 
 /** One value to write. */
 export interface WriteEntry {
+  /** What is written. */
   readonly item: Item
+  /** A value of its type; of an array all of them. */
   readonly value: WriteValue
 }
 

@@ -37,24 +37,32 @@ export interface ItemOptions extends ValueFormat {
   readonly count?: number
 }
 
+/**
+ * What a user reads or writes: a text such as `D100:REAL`, or an object with such an address and options of its own.
+ */
 export type Item = string | ItemOptions
 
 /** An item that can be read or written, as plain data. At most one of `bit` and `digits` is there. */
 export interface ParsedItem extends ParsedDevice {
   /** As it was given; of an object the text that says the same. Results and messages carry it. */
   readonly text: string
+  /** Type of each value. */
   readonly type: ValueType
   /** Values of an array; missing: one value. */
   readonly count?: number
+  /** Word order, encoding and so on; what is left out is as MELSEC does it. */
   readonly format: ValueFormat
 }
 
 /** An item that cannot be read, among others that can. */
 export interface RefusedItem {
+  /** As it was given. */
   readonly text: string
+  /** What is wrong with it. */
   readonly error: RequestError
 }
 
+/** How items are read: numbering of X, Y and W, and the format of values. */
 export interface ItemParseOptions extends AddressOptions {
   /** Word order, encoding and so on of items that do not say their own. */
   readonly format?: ValueFormat

@@ -20,10 +20,12 @@ export interface LabelFormat {
   readonly asciiWordOrder?: 'low-first' | 'high-first'
 }
 
+/** What a call about labels may say: the format of text, too. */
 export interface LabelOptions extends CallOptions, LabelFormat {}
 
 /** A label with what is particular about it; what is left out is the call's, and then the client's. */
 export interface LabelItemOptions extends LabelFormat {
+  /** Name of the label, as in GX Works3. */
   readonly label: string
   /** That many elements of an array, from the one that is named. */
   readonly count?: number

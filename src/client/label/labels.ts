@@ -16,6 +16,7 @@ import { labelEntry, labelWrites } from './write'
 export type { LabelFormat, LabelItem, LabelItemOptions, LabelOptions } from './item'
 export type { LabelValue } from './read'
 
+/** What became of one label of a read. */
 export type LabelReadResult =
   | {
       readonly label: string
@@ -30,6 +31,7 @@ export type LabelReadResult =
     }
   | { readonly label: string; readonly ok: false; readonly error: PlcError; readonly timestamp: number }
 
+/** What became of one label of a write. */
 export type LabelWriteResult =
   | { readonly label: string; readonly ok: true }
   | { readonly label: string; readonly ok: false; readonly error: PlcError }

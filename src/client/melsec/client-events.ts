@@ -18,6 +18,7 @@ export interface ClientEvents {
 
 /** A frame that arrived in the form of a request. */
 export interface UnsolicitedFrame {
+  /** As the frame says it. */
   readonly route: Route
   /** Command, subcommand and data, in the data code of the connection. */
   readonly body: Buffer

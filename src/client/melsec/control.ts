@@ -31,6 +31,7 @@ export interface StopOptions extends CallOptions {
   readonly verify?: boolean
 }
 
+/** What `control.run()` may say. */
 export interface RunOptions extends StopOptions {
   /** Also when another device stopped or paused the CPU: for when that device is broken. Default false. */
   readonly force?: boolean
@@ -38,10 +39,13 @@ export interface RunOptions extends StopOptions {
   readonly clear?: ClearMode
 }
 
+/** What `control.pause()` may say. */
 export interface PauseOptions extends StopOptions {
+  /** Also when another device has stopped or paused the CPU. */
   readonly force?: boolean
 }
 
+/** What `control.latchClear()` may say. */
 export interface LatchClearOptions extends CallOptions {
   /** The field some manuals print as 0 (FX5); default 1. */
   readonly value?: 0 | 1
@@ -81,9 +85,11 @@ export interface Control {
 export interface Identity {
   /** Name as the PLC sends it, without padding. */
   readonly model: string
+  /** The number that says which model it is. */
   readonly modelCode: number
   /** CPUs that have this code: more certain than the name. Empty when the code is in neither manual. */
   readonly models: readonly string[]
+  /** Series of the models, e.g. `iQ-R`. */
   readonly series?: string
   /** The profile that fits. A port cannot be told from the code: where the client's own profile is for such a CPU, it stays. */
   readonly profile?: ProfileId
@@ -91,9 +97,11 @@ export interface Identity {
   readonly warning?: IdentityWarning
 }
 
+/** What does not fit between the PLC that answered and the options of the client. */
 export interface IdentityWarning {
   /** `W_RADIX`: it is said to number W in decimal, and this client writes W in hexadecimal (`wRadix`). */
   readonly code: 'W_RADIX'
+  /** What it is and what to do, in English. */
   readonly message: string
 }
 

@@ -23,6 +23,7 @@ export interface NamedRequest {
 
 /** What a request is going to be: nothing of it was sent. */
 export interface RequestExplanation {
+  /** Name of the command, e.g. `readWords`. */
   readonly name: CommandName
   /** The manual's name, English edition. */
   readonly title: string

@@ -30,6 +30,7 @@ export interface MelsecClientOptions {
   readonly port: number
   /** Default `tcp`. */
   readonly transport?: TransportName
+  /** Address of this computer to send from; default: the system chooses it. */
   readonly localAddress?: string
   /** Local port; default: any free one. */
   readonly localPort?: number

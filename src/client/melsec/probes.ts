@@ -12,6 +12,7 @@ import type { Probe } from '../connection/connection-options'
  * `none`: nothing is asked; the first request of the program proves the connection.
  */
 export const probeKinds = ['auto', 'typeName', 'read', 'none'] as const
+/** How a new connection is proved. */
 export type ProbeKind = (typeof probeKinds)[number]
 
 type Asked = 'readTypeName' | 'readWords'

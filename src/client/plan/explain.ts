@@ -16,14 +16,17 @@ export interface DeviceExplanation {
   readonly device: string
   /** The manual's term, e.g. `data register`. */
   readonly title: string
+  /** What one device is. */
   readonly unit: DeviceUnit
   /** First and last device (or bit) of the item, e.g. `D100` and `D119`. */
   readonly first: string
+  /** Last device (or bit) of the item, e.g. `D119`. */
   readonly last: string
   /** Size of the item: bits of BOOL and digits, words of everything else. */
   readonly size: { readonly count: number; readonly unit: 'bit' | 'word' }
   /** Radix of the device number. */
   readonly radix: Radix
+  /** Type of each value, e.g. `REAL`. */
   readonly type: string
   /** Values of an array. */
   readonly count?: number

@@ -10,6 +10,7 @@ export interface ReadPlan {
   run(options?: CallOptions): Promise<ReadResult[]>
   /** Requests, points, bytes and notes, for people. */
   describe(): PlanDescription
+  /** `describe()` as text: a line for each request, then the notes. */
   toString(): string
 }
 
@@ -22,6 +23,8 @@ export interface WritePlan {
   run(options?: CallOptions): Promise<void>
   /** As `run`, with a result for each entry instead of an error. Look at each of them. */
   runEach(options?: CallOptions): Promise<WriteResult[]>
+  /** Requests, points, bytes and notes, for people. */
   describe(): PlanDescription
+  /** `describe()` as text: a line for each request, then the notes. */
   toString(): string
 }

@@ -18,10 +18,13 @@ export type SendExchange = <T>(exchange: Exchange<T>) => Promise<T>
 
 /** One request as people see it. */
 export interface RequestDescription {
+  /** Name of the command. */
   readonly command: CommandName
   /** Form of the device specification; label commands have none. */
   readonly form?: DeviceForm
+  /** As it is sent: units and form of the device specification. */
   readonly subcommand: number
+  /** Points it asks for, in the units of the command. */
   readonly points: number
   /** Bytes of the whole frame; missing while it depends on types of labels that the PLC has not said yet. */
   readonly requestBytes?: number
@@ -264,7 +267,9 @@ export function describePrepared(
 
 /** A plan for people to read. */
 export interface PlanDescription {
+  /** The requests in the order they are sent. */
   readonly requests: readonly RequestDescription[]
+  /** What one should know, e.g. that an array is read by several requests. */
   readonly notes: readonly string[]
 }
 

@@ -24,6 +24,7 @@ export interface PlannedEntry {
 
 export type { WriteResult } from '../../errors'
 
+/** What a write may say beside its deadline. */
 export interface WriteOptions {
   /**
    * Allow bits of words (`D100.3`): the word is read, changed and written back. That is not one step for the PLC: what
