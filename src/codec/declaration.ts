@@ -6,6 +6,7 @@ import type { Shape } from './field'
  * `lock`: changes nothing but what other devices may do meanwhile, as opening a file does; it needs no permission.
  */
 export const effects = ['read', 'write', 'control', 'diagnose', 'lock'] as const
+/** What a command does to the PLC. */
 export type Effect = (typeof effects)[number]
 
 /** A command as plain data: what every protocol family declares of its commands. */
@@ -14,10 +15,13 @@ export interface Declaration {
   readonly title: string
   /** The number that says which command it is, where the frame carries it. */
   readonly code: number
+  /** What it does to the PLC: permissions look at it. */
   readonly effect: Effect
   /** Where it is described, e.g. `SLMP reference manual 5.2`. */
   readonly manual: string
+  /** Fields of its request. */
   readonly request: Shape
+  /** Fields of its answer. */
   readonly response: Shape
   /** Name of the command whose request a response refers to, when it is not this one's (Execute Monitor). */
   readonly context?: string

@@ -4,7 +4,9 @@ import { takesOf } from './takes'
 
 /** One row of a command's documentation: read from the same data the codec runs on. */
 export interface FieldDescription {
+  /** Name of the field in a message. */
   readonly name: string
+  /** Kind of the field, of a value codec its name. */
   readonly kind: string
   /** What stands in a message for it, in words; absent for what is filled in by itself. */
   readonly takes?: string
@@ -20,10 +22,15 @@ export interface FieldDescription {
   readonly oneOf?: readonly number[]
   /** What is written when a message leaves the field out. */
   readonly default?: unknown
+  /** What says how many values there are: a number, or the name of another field. */
   readonly count?: Count
+  /** Of a fixed field: the number that always stands there. */
   readonly value?: number
+  /** Of a count: the field whose values it counts. */
   readonly of?: string
+  /** What it means. */
   readonly doc?: string
+  /** Of a list: the fields of each element. */
   readonly item?: readonly FieldDescription[]
 }
 

@@ -12,7 +12,9 @@ export interface FrameExplanation {
   readonly title: string
   /** e.g. `4E`; absent when the bytes are no frame that could be told. */
   readonly frame?: string
+  /** Data code; absent when it could not be told. */
   readonly code?: DataCode
+  /** Request or response; absent when it could not be told. */
   readonly direction?: Direction
   /** Serial number, where the frame has one. */
   readonly serial?: number

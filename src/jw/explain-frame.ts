@@ -8,7 +8,9 @@ import type { NamedCommand } from '../link/link'
 import { jwCommands } from './commands'
 import { type JwAddress, jwAddress } from './operand'
 
+/** What is known of a JW message. */
 export interface ExplainJwOptions {
+  /** Request or response; told by the first byte. */
   readonly direction?: Direction
   /** The frame of the request that this response answers: tells where the answer ends. */
   readonly request?: Buffer

@@ -5,6 +5,7 @@ import { RequestError } from '../errors'
 
 /** Modules that are addressed alike. */
 export interface ExtendUnitInfo {
+  /** Model names of the module. */
   readonly models: readonly string[]
   /** Start address of the buffer memory, bytes. */
   readonly startAddress: number
@@ -20,6 +21,7 @@ function row(startAddress: number, slot0: number | undefined, ...models: string[
 
 // The column of slot 0 is merged over rows: from QD35ID1 on 0 (Q64TCTTBW and Q64TCRTBW 1), from QD72P3C3 on 0. In between
 // a 1 is printed beside QD60P8-G, and how far down it holds cannot be seen; QD70D4 and QD70D8 have 1 of their own.
+/** Modules whose buffer memory the Extend Unit commands name by model, with where it starts. */
 export const extendUnits: readonly ExtendUnitInfo[] = [
   row(0x4000, 0, 'QD35ID1', 'QD35ID2'),
   row(0x1008, 0, 'Q62AD-DGH', 'Q64AD', 'Q64AD-GH', 'Q66AD-DG', 'Q68AD-G', 'Q68ADV', 'Q68ADI'),

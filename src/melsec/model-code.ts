@@ -2,11 +2,14 @@
 // The manuals say: identify a CPU by this code, not by the model name.
 import type { ProfileId } from './profiles/profile'
 
+/** Series of CPUs and modules. */
 export type Series = 'iQ-R' | 'iQ-F' | 'iQ-L' | 'Q' | 'QS' | 'L' | 'MELIPC' | 'CC-Link IE Field'
 
 /** What a model code stands for. Several models may share one code. */
 export interface Model {
+  /** Models that share the code. */
   readonly models: readonly string[]
+  /** Series they belong to. */
   readonly series: Series
   /** The profile that fits. */
   readonly profile: ProfileId

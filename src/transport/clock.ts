@@ -5,6 +5,7 @@ export interface TimerOptions {
   readonly unref?: boolean | undefined
 }
 
+/** Time: the real one, or one that a test turns. */
 export interface Clock {
   /** Monotonic milliseconds: for deadlines and durations. Never jumps, has no meaning by itself. */
   now(): number

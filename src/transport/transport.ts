@@ -22,6 +22,7 @@ export interface TransportHandlers {
 
 /** One connection attempt and the connection it becomes. It is not reused: the next attempt is another transport. */
 export interface Transport {
+  /** A stream is cut and joined anywhere; a datagram arrives whole, or not at all. */
   readonly kind: 'stream' | 'datagram'
   /**
    * Whether `renew()` moves to a new local port, so that nothing late can arrive. Not on a stream (close it instead),

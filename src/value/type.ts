@@ -123,6 +123,7 @@ export type TextName = TypeNameOf<'text'>
 
 /** A type as `parseType` gives it. */
 export interface ValueType {
+  /** Name of the type. */
   readonly name: TypeName
   /** STRING and WSTRING only, and there always: see {@link wordsOf}. */
   readonly length?: number

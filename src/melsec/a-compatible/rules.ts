@@ -67,6 +67,7 @@ export interface ACompatibleFamily {
   readonly source: string
 }
 
+/** Whether a dummy character follows an odd number of bits in 1E frames in ASCII code. */
 export type OddBits = 'exact' | 'padded'
 
 /** FX5 CPU modules and Ethernet modules. */

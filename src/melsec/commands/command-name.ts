@@ -33,18 +33,23 @@ export function commandNamed(text: string): Command & { readonly name: CommandNa
 
 /** A command for people: what its message and its answer hold, and an example. */
 export interface CommandDescription {
+  /** Name of the command, e.g. `readWords`. */
   readonly name: CommandName
   /** The manual's name, English edition. */
   readonly title: string
   /** Four hexadecimal digits. */
   readonly code: string
+  /** What it does to the PLC. */
   readonly effect: Command['effect']
+  /** Where it is described. */
   readonly manual: string
   /** `connected`: it goes to the connected station, whatever the route. */
   readonly to?: 'connected'
   /** The command whose message must be given too: the registration of Execute Monitor. */
   readonly context?: string
+  /** Fields of its request. */
   readonly request: readonly FieldDescription[]
+  /** Fields of its answer. */
   readonly response: readonly FieldDescription[]
   /** A message as JSON. */
   readonly example: Readonly<Record<string, unknown>>

@@ -20,6 +20,7 @@ import { deviceAddress, FORM_EXTENDED, FORM_LONG } from '../device/codec'
 import { deviceFromJson, deviceToJson, type Notation } from '../device/json'
 import type { Command, RequestOf } from './command'
 
+/** How a message is written as JSON. */
 export interface ToJsonOptions extends Notation {
   /** Passwords too. Without it fields that hold one are left out. */
   readonly secrets?: boolean

@@ -44,6 +44,7 @@ export interface AddressOptions {
 
 /** A parsed text. At most one of `bit` and `digits` is there. */
 export interface ParsedDevice {
+  /** Device and number, and what modifies them. */
   readonly address: DeviceAddress
   /** `D100.F`: bit 0 (lowest) to 15 of the word. */
   readonly bit?: number

@@ -5,6 +5,7 @@
  */
 import { RequestError } from '../../errors'
 
+/** What one device is: a bit, a word of 16 bits, or a double word of 32. */
 export type DeviceUnit = 'bit' | 'word' | 'doubleWord'
 
 /** Radix of the number as an engineer writes it. */
@@ -211,9 +212,11 @@ export type DeviceExtension =
  * @example { device: 'G', number: 100, extension: { kind: 'module', unit: 3 } }   // U3\G100, start I/O number 0030
  */
 export interface DeviceAddress {
+  /** Name of the device, e.g. `D`. */
   readonly device: DeviceName
   /** 0 to 4294967295; what a wire form can say is less. */
   readonly number: number
+  /** Where it is, when not in the CPU itself. */
   readonly extension?: DeviceExtension
   /** Index register whose value is added to the network or the start I/O number (`J1Z0\W100`). */
   readonly extensionIndex?: { readonly register: 'Z'; readonly number: number }

@@ -27,6 +27,7 @@ export function endCodes(family: MelsecEndCodeFamily): readonly EndCodeEntry[] {
   return tables().endCodeEntries[family]
 }
 
+/** What an end code means, in one language. */
 export interface EndCodeExplanation {
   /** Whose number it is. */
   readonly family: EndCodeFamily
@@ -46,6 +47,7 @@ export interface EndCodeExplanation {
   readonly exact: boolean
 }
 
+/** How an end code is explained. */
 export interface ExplainOptions {
   /** Default `en-US`. */
   readonly language?: Language

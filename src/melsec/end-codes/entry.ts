@@ -3,13 +3,17 @@ import type { CommandName } from '../commands/commands'
 import type { RemedyName } from './remedies'
 import type { Texts } from './texts'
 
+/** An end code and its texts. */
 export interface EndCodeEntry {
+  /** The number, or the first of a range. */
   readonly code: number
   /** Last code of a range, where the manual has one text for all of it. */
   readonly to?: number
+  /** What it means: whole sentences in each language. */
   readonly meaning: Texts
   /** What to do: an own text, or one that many codes share. */
   readonly remedy: Texts | RemedyName
+  /** Where it is written. */
   readonly source: string
 }
 

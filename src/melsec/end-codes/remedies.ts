@@ -245,4 +245,5 @@ export const remedies = {
   nothing: ['Nothing to do.', '処置は不要です。', '无需处理。', '無需處理。'],
 } as const satisfies Readonly<Record<string, Texts>>
 
+/** Name of a remedy that many codes share. */
 export type RemedyName = keyof typeof remedies

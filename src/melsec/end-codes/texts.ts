@@ -1,5 +1,6 @@
 // Texts in the languages of this package.
 
+/** Languages of the texts. */
 export type Language = 'en-US' | 'ja' | 'zh-CN' | 'zh-TW'
 
 /** The languages, in the order of {@link Texts}. */

@@ -10,7 +10,9 @@ import type { Settings } from './body'
 export interface ExplainFrameOptions {
   /** `4C`: format 5. 1E and 4C must be said; 3E, 4E and the station extension frame are told by their subheaders. */
   readonly frame?: FrameName | '4C'
+  /** Data code; told by the bytes where they tell it. */
   readonly code?: DataCode
+  /** Request or response; told by the subheader where there is one. */
   readonly direction?: Direction
   /** Family of the PLC; default `generic`. */
   readonly profile?: ProfileId | ProfileInfo

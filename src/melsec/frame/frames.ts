@@ -36,6 +36,7 @@ export const frameFacts = {
   '1E': { title: '1E', codes: BOTH, serial: false, instead: '3E' },
 } as const satisfies Readonly<Record<string, FrameFacts>>
 
+/** Name of a frame; `ext`: the station extension frame. */
 export type FrameName = keyof typeof frameFacts
 /** Frames of the SLMP set. */
 export type SlmpFrameName = Exclude<FrameName, '1E'>

@@ -26,18 +26,23 @@ export const profileIds = [
   'generic',
 ] as const
 
+/** Id of a profile. */
 export type ProfileId = (typeof profileIds)[number]
 export type { FrameName } from '../frame/frames'
+/** What a port is reached by. */
 export type TransportName = 'tcp' | 'udp'
 
 /** A command this family does not have, or not on each of its ports. */
 export interface Lack {
+  /** Name of the command. */
   readonly command: CommandName
   /** End code the PLC answers to it. */
   readonly endCode: number
+  /** Why, as a sentence. */
   readonly reason: string
   /** What to do instead. */
   readonly instead: string
+  /** Where it is written. */
   readonly source: string
 }
 
@@ -88,6 +93,7 @@ export interface Refusals {
   readonly source: string
 }
 
+/** Requests it can take before it has answered. */
 export interface InFlight {
   /** Requests in flight on one TCP connection. */
   readonly tcp: number
@@ -95,6 +101,7 @@ export interface InFlight {
   readonly udpBuffer: number
   /** The same figure of each port this profile stands for; `udpBuffer` is the lowest. Empty where there is no pipelining. */
   readonly ports: readonly { readonly port: string; readonly buffer: number }[]
+  /** Where it is written. */
   readonly source: string
 }
 
@@ -108,6 +115,7 @@ export interface Reach {
   readonly nonControlCpus: readonly number[]
   /** The port takes no other module I/O number. */
   readonly ownModuleIoOnly: boolean
+  /** Where it is written. */
   readonly source: string
 }
 
@@ -132,24 +140,33 @@ export interface UsualModel {
 
 /** Connections a port has at the same time. */
 export interface Connections {
+  /** So many; a further one is accepted and ended at once. */
   readonly most: number
+  /** Where it is written. */
   readonly source: string
 }
 
 /** Last index register of each kind that can modify an address. */
 export interface LastIndex {
+  /** Number of the last Z; -1: none. */
   readonly Z: number
+  /** Number of the last LZ; -1: none. */
   readonly LZ: number
+  /** Where it is written. */
   readonly source: string
 }
 
 /** Where the CPU tells whether it runs: b0 to b3 of a register, 0 RUN, 2 STOP, 3 PAUSE. */
 export interface StatusRegister {
+  /** Always a special register. */
   readonly device: 'SD'
+  /** Its number. */
   readonly number: number
+  /** Where it is written. */
   readonly source: string
 }
 
+/** What a port takes as monitoring timer: the time the PLC gives a request. */
 export interface MonitoringTimer {
   /** In ms, a multiple of 250. 0 is "wait for ever" on the PLC's side. */
   readonly default: number
@@ -157,9 +174,11 @@ export interface MonitoringTimer {
   readonly zeroOnly: boolean
   /** Recommended for the own station, in ms. */
   readonly recommended?: { readonly from: number; readonly to: number }
+  /** Where it is written. */
   readonly source: string
 }
 
+/** Remote control, as far as families differ. */
 export interface RemoteFacts {
   /** Clear modes Remote RUN takes. */
   readonly clearModes: readonly (0 | 1 | 2)[]
@@ -167,6 +186,7 @@ export interface RemoteFacts {
   readonly reset: string
   /** Absent: it is not known where, or the frame does not reach it; remote control cannot be verified then. */
   readonly status?: StatusRegister
+  /** Where it is written. */
   readonly source: string
 }
 
@@ -180,6 +200,7 @@ export interface DeviceRanges {
 
 /** A memory with files. */
 export interface Drive {
+  /** As file commands name it. */
   readonly number: number
   /** The manual's name. */
   readonly title: string
@@ -329,14 +350,21 @@ export type LimitOverrides = Readonly<
 
 /** What a user may set differently. Each field is merged into the profile's, entry by entry. */
 export interface ProfileOverrides {
+  /** How X and Y are numbered. */
   readonly xyRadix?: 8 | 16
+  /** How W is numbered. */
   readonly wRadix?: 10 | 16
+  /** Default frame. */
   readonly frame?: FrameName
+  /** Points or blocks that one request may carry, by command. */
   readonly limits?: LimitOverrides
   /** `true` or a reason: the PLC lacks the command; `false`: it has it (also takes it off the doubtful ones). */
   readonly lacks?: Readonly<Partial<Record<CommandName, boolean | string>>>
+  /** Points of a device: numbers go from 0 to points - 1. */
   readonly ranges?: Readonly<Partial<Record<DeviceName, number>>>
+  /** Subcommand of a command, when it is not the computed one. */
   readonly subcommands?: Readonly<Partial<Record<CommandName, number>>>
+  /** Requests it can take before it has answered. */
   readonly inFlight?: { readonly tcp?: number; readonly udpBuffer?: number }
   /** ZR counts twice in Read Random and Entry Monitor Device: the High Performance model QCPU does so. */
   readonly zrCountsDouble?: boolean
