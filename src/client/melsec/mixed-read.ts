@@ -43,12 +43,18 @@ export class MixedItems {
   }
 
   merged(devices: readonly ReadResult[], labels: readonly LabelOutcome[]): ReadResult[] {
-    const left = { devices: devices.values(), labels: labels.values() }
+    const left = { devices: [...devices], labels: [...labels] }
     return this.#items.map((item): ReadResult => {
-      if (isLabel(item)) return labelResult(item, left.labels.next().value as LabelOutcome)
-      return left.devices.next().value as ReadResult
+      if (!isLabel(item)) return oneMore(left.devices.shift(), item)
+      return labelResult(item, oneMore(left.labels.shift(), item))
     })
   }
+}
+
+/** There is a result for each item. */
+function oneMore<T>(result: T | undefined, { text }: AnyItem): T {
+  if (result !== undefined) return result
+  throw new TypeError(`There is no result for ${text}.`)
 }
 
 function labelResult({ text: item }: LabelInItems, outcome: LabelOutcome): ReadResult {

@@ -1,9 +1,6 @@
 // Items the PLC is told once (0801) and asked for again and again with a request that names none (0802).
 
 import { EndCodeError, PlcError, RequestError } from '../../errors'
-import type { Exchange } from '../../link/link'
-import type { RequestOf } from '../../melsec/commands/command'
-import { commands } from '../../melsec/commands/commands'
 import type { AddressOptions } from '../../melsec/device/address'
 import type { CallOptions } from '../connection/call'
 import type { Deadline } from '../connection/deadline'
@@ -14,7 +11,7 @@ import type { Stretch } from './chunk'
 import { Areas, piecesOf, readLayout } from './layout'
 import type { PlanProtocol } from './limit'
 import { type DeviceRead, planRead } from './read'
-import { type PreparedRead, prepareRead, type SendExchange } from './request'
+import { type PreparedMonitor, prepareMonitor, type SendExchange } from './request'
 import { type Place, placeOf, valueAt } from './value'
 import type { OpenCall } from './write-turns'
 
@@ -147,9 +144,7 @@ export class ItemMonitor implements Monitor {
 class Registered {
   readonly #items: readonly (ParsedItem | RefusedItem)[]
   readonly #places: readonly Place[]
-  readonly #prepared: PreparedRead
-  readonly #entry: Exchange<unknown>
-  readonly #execute: Exchange<unknown>
+  readonly #prepared: PreparedMonitor
   readonly #options: MonitorOptions
 
   /** @throws RequestError when the items cannot be registered together. */
@@ -158,11 +153,8 @@ class Registered {
     this.#options = options
     const areas = new Areas(protocol, 'read')
     const runs = items.flatMap((item, index) => ('error' in item ? [] : [runOf(areas, item, index)]))
-    this.#prepared = prepareRead(protocol, { kind: 'random', runs }, options)
+    this.#prepared = prepareMonitor(protocol, runs)
     this.#places = runs.flatMap((run) => placesOf(run, items, this.#prepared.offsets.get(run) ?? 0))
-    const { words, doubleWords } = this.#prepared.exchange.message as RequestOf<typeof commands.readRandom>
-    this.#entry = protocol.exchange(commands.entryMonitorDevice, { words, doubleWords })
-    this.#execute = protocol.exchange(commands.executeMonitor, {}, { context: this.#prepared.exchange.message })
   }
 
   /** The results; an end code when the PLC refuses to register the items or to read them. */
@@ -186,25 +178,23 @@ class Registered {
 
   async #fetch(send: SendExchange): Promise<ArrayLike<number>> {
     const { registration } = this.#options
-    // Execute Monitor answers what Read Random with the same devices would, so its words are taken apart the same way.
-    const execute = () => this.#prepared.fetch(<T>() => send(this.#execute as Exchange<T>))
     const isNew = !registration.isOf(this)
     if (isNew) await this.#register(send)
     try {
-      return await execute()
+      return await this.#prepared.fetch(send)
     } catch (error) {
       // A PLC that restarted behind a connection that lives has forgotten the registration, and so has one whose
       // connection was made anew in between: once more, then it is an error.
       if (!(error instanceof EndCodeError) || (isNew && registration.isOf(this))) throw error
       await this.#register(send)
-      return execute()
+      return this.#prepared.fetch(send)
     }
   }
 
   async #register(send: SendExchange): Promise<void> {
     const { registration } = this.#options
     registration.lose()
-    await send(this.#entry)
+    await send(this.#prepared.entry)
     registration.take(this, registration.generation())
   }
 

@@ -99,6 +99,20 @@ export function prepareRead(protocol: PlanProtocol, draft: Draft, options: Addre
   })
 }
 
+/** Read Random with the same devices, registered once and asked for again and again. */
+export interface PreparedMonitor extends Pick<PreparedRead, 'offsets' | 'fetch'> {
+  readonly entry: Exchange<unknown>
+}
+
+/** @throws RequestError when they cannot be registered together. */
+export function prepareMonitor(protocol: PlanProtocol, runs: readonly Stretch[]): PreparedMonitor {
+  const { message, offsets, wordsOf } = readRandom(runs)
+  const entry = protocol.exchange(commands.entryMonitorDevice, message)
+  // Execute Monitor answers what Read Random would, so its words are taken apart the same way.
+  const execute = protocol.exchange(commands.executeMonitor, {}, { context: message })
+  return { entry, offsets, fetch: async (send) => wordsOf(await send(execute)) }
+}
+
 /** @throws RequestError when these cells alone could not be asked for. */
 export function checkCells(protocol: PlanProtocol, run: Stretch): void {
   const { direct } = run.area.ways
