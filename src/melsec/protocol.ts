@@ -144,7 +144,7 @@ export class SlmpCommandSet {
   ): Asked<ResponseOf<C>> {
     const bag: Message = message
     const form = this.#formOf(command, bag, options)
-    checkLimits(this.profile, command.name as CommandName, form, this.code, bag)
+    checkLimits(this.profile, command.name, form, this.code, bag)
     const subcommand = subcommandOf(command, form, this.profile, options.subcommand)
     const bits = codecBits(command, form, subcommand) | this.#digitBits
     const writer = writerOf(this.code, bits)
@@ -174,7 +174,7 @@ export class SlmpCommandSet {
    */
   check<C extends Command>(command: C, message: RequestOf<C>): void {
     const form = this.#formOf(command, message, {})
-    checkLimits(this.profile, command.name as CommandName, form, this.code, message)
+    checkLimits(this.profile, command.name, form, this.code, message)
     checkTarget(this.profile, command, message, this.#moduleIo)
   }
 
@@ -210,7 +210,7 @@ export class SlmpCommandSet {
         'context',
       )
     }
-    const asked: Command = commands[command.context as CommandName]
+    const asked = commandOf(command.context)
     const bits = FORM_BITS[this.#formOf(asked, options.context, {})] | this.#digitBits
     const writer = writerOf(this.code, bits)
     encode(asked.request, options.context, writer)
@@ -297,7 +297,7 @@ export class SlmpCommandSet {
     const reader = readerOf(this.code, frame.body.subarray(head.position), bits)
     const message = decode(command.request, reader)
     reader.end()
-    return { command, form, name: command.name as CommandName, subcommand, message }
+    return { command, form, name: command.name, subcommand, message }
   }
 
   /** The PLC's side: the data of the answer. `context` is the request, or for Execute Monitor the registration. */
@@ -312,7 +312,7 @@ export class SlmpCommandSet {
       encode(commandFields, { command: command.code, subcommand }, writer)
       encode(this.#layout.reserved, {}, writer)
     }
-    const shape = command.context === undefined ? command.request : commands[command.context as CommandName].request
+    const { request: shape } = command.context === undefined ? command : commandOf(command.context)
     encode(command.response, response, writer, { shape, message: context })
     return writer.take()
   }
@@ -360,4 +360,11 @@ export class MelsecProtocol<H extends Head> extends SlmpCommandSet {
 
 function codes({ command, subcommand }: { readonly command: number; readonly subcommand: number }): string {
   return `command ${hex(command, 4)}, subcommand ${hex(subcommand, 4)}`
+}
+
+/** The command whose message another one refers to. @throws TypeError when none is declared under this name */
+function commandOf(context: string): Command {
+  const found: Command | undefined = Object.values<Command>(commands).find(({ name }) => name === context)
+  if (found === undefined) throw new TypeError(`There is no command ${context} to refer to`)
+  return found
 }

@@ -2,7 +2,7 @@
 import { decode, type Message, type Reader, readerOf, type Shape, type ValueCodec } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { RequestFrame } from '../link/link'
-import { type CommandName, commands } from '../melsec/commands/commands'
+import { commands } from '../melsec/commands/commands'
 import { deviceAddress } from '../melsec/device/codec'
 import { codecBits, findCommand } from '../melsec/device/form'
 import { limitsOf } from '../melsec/device/limit'
@@ -103,7 +103,7 @@ function endCodeOf(protocol: SlmpCommandSet, body: Buffer, code: number, subcomm
   }
   if (culprit === setReset) return requestErrors.bitData
   // The other fields of commands that have limits are points and counts: here one of them is 0.
-  const [limit] = limitsOf(protocol.profile, found.command.name as CommandName, found.form, protocol.code)
+  const [limit] = limitsOf(protocol.profile, found.command.name, found.form, protocol.code)
   return limit?.endCode ?? requestErrors.content
 }
 

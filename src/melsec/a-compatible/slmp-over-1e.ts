@@ -7,7 +7,6 @@ import { RequestError } from '../../errors'
 import type { Exchange, FrameExplainer, Framing, HeadProtocol, NamedCommand } from '../../link/link'
 import type { ClientProtocol, ProtocolOptions, ShownAs } from '../client-protocol'
 import type { Command, RequestOf, ResponseOf } from '../commands/command'
-import type { CommandName } from '../commands/commands'
 import { type DeviceAddress, deviceInfo } from '../device/device'
 import { explainer1e } from '../explain/explainer-1e'
 import type { Head1e } from '../frame/frame-1e'
@@ -112,7 +111,7 @@ class SlmpOver1e implements ClientProtocol {
   }
 
   #check(command: Command, options: ExchangeOptions): void {
-    const lack = lackOf(this.profile, command.name as CommandName)
+    const lack = lackOf(this.profile, command.name)
     if (lack !== undefined) {
       throw new RequestError(
         'UNSUPPORTED',

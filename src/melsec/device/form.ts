@@ -60,12 +60,12 @@ export function codecBits(command: Command, form: DeviceForm, subcommand: number
 }
 
 /** Which of the declared commands a command and a subcommand number name; one rule for whoever reads requests. */
-export function findCommand(
-  list: Readonly<Record<string, Command>>,
+export function findCommand<C extends Command>(
+  list: Readonly<Record<string, C>>,
   profile: Profile,
   code: number,
   subcommand: number,
-): { readonly command: Command; readonly form: DeviceForm } | undefined {
+): { readonly command: C; readonly form: DeviceForm } | undefined {
   const device = readSubcommand(subcommand)
   for (const command of Object.values(list)) {
     if (command.code !== code) continue

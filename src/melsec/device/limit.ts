@@ -82,12 +82,13 @@ const memo = new WeakMap<Profile, Map<string, readonly Limit[]>>()
  * The limits of one command; all of them hold at the same time (`readBlock`: blocks and points).
  * Empty for a command without any. The same frozen-by-convention array each time, so it may be called per request.
  *
+ * @param command its name; one that is not declared has no limits
  * @param of the unit of the devices; without it the limits of both are given, of which the lower one counts
  * @example limitsOf(resolveProfile('iq-f'), 'readWords', 'short', 'ascii')[0].max // 480
  */
 export function limitsOf(
   profile: Profile,
-  command: CommandName,
+  command: string,
   form: DeviceForm,
   code: DataCode,
   of?: LimitedUnit,
@@ -99,13 +100,14 @@ export function limitsOf(
   if (limits === undefined) {
     const concerns = (rule: LimitRule) => of === undefined || rule.of === undefined || rule.of === of
     const rules = profile.limits.filter(
-      (rule) =>
-        rule.commands.includes(command) &&
-        rule.forms.includes(form) &&
-        concerns(rule) &&
-        rule.codes?.includes(code) !== false,
+      (rule) => rule.forms.includes(form) && concerns(rule) && rule.codes?.includes(code) !== false,
     )
-    limits = withoutHigher(rules.map((rule) => limitOf(rule, command, form, code)))
+    limits = withoutHigher(
+      rules.flatMap((rule) => {
+        const name = rule.commands.find((listed) => listed === command)
+        return name === undefined ? [] : [limitOf(rule, name, form, code)]
+      }),
+    )
     known.set(key, limits)
   }
   return limits
@@ -188,7 +190,7 @@ export function requestBytes(name: CommandName, code: DataCode, message: Measura
 /** The first limit the message breaks, with what was measured; undefined when it fits. For the simulator's end codes. */
 export function brokenLimit(
   profile: Profile,
-  command: CommandName,
+  command: string,
   form: DeviceForm,
   code: DataCode,
   message: Measurable,
@@ -222,7 +224,7 @@ const unitText: Readonly<Record<LimitUnit, string>> = {
  */
 export function checkLimits(
   profile: Profile,
-  command: CommandName,
+  command: string,
   form: DeviceForm,
   code: DataCode,
   message: Measurable,

@@ -398,7 +398,7 @@ export function addressOptionsOf(
 }
 
 /** Why this family has not got the command, and what to do instead; undefined when it has it. */
-export function lackOf(profile: Profile, command: CommandName): Lack | undefined {
+export function lackOf(profile: Profile, command: string): Lack | undefined {
   return profile.lacks.find((lack) => lack.command === command)
 }
 
