@@ -21,11 +21,16 @@ export type { WriteMode } from './client/file/write'
 export { headOfError, type ItemResult, nameResults } from './client/item/about'
 export type { Item, ItemOptions } from './client/item/item'
 export type {
+  ItemInput,
+  ItemInputs,
+  ItemResults,
   Items,
   ItemValue,
+  ItemValues,
   NumberArray,
   ReadResult,
   ReadValue,
+  WriteEntries,
   WriteEntry,
   WriteValue,
   WriteValues,
@@ -61,7 +66,7 @@ export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
 export type { PlanDescription, RequestDescription } from './client/plan/request'
-export type { WriteOptions } from './client/plan/write'
+export type { WriteCallOptions, WriteOptions } from './client/plan/write'
 export type { DataCode, Declaration, Effect, MessageInput, MessageOf, Shape } from './codec/codec'
 export {
   type CauseData,

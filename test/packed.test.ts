@@ -15,6 +15,7 @@ import { tmpdir } from 'node:os'
 import { dirname, join } from 'node:path'
 import { promisify } from 'node:util'
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
+import { fencesOf } from './docs/markdown'
 import { root } from './support/root'
 
 const run = promisify(execFile)
@@ -150,6 +151,18 @@ createMelsecClient({ host: 5, port: 5007 })
       writeFileSync(join(project, file), program)
       const options = ['--noEmit', '--strict', '--target', 'es2022', '--module', module]
       const args = [tsc, ...options, '--moduleResolution', moduleResolution, file]
+      await expect(run(process.execPath, args, { cwd: project })).resolves.toMatchObject({ stdout: '' })
+    },
+    MINUTES,
+  )
+
+  const typed = fencesOf('docs/client.md').filter(({ info }) => info.includes('typed'))
+  test.each(typed)(
+    'compiles the program of $page:$line',
+    async ({ line, text }) => {
+      const file = `documentation-${line}.mts`
+      writeFileSync(join(project, file), text)
+      const args = [tsc, '--noEmit', '--strict', '--target', 'es2022', '--module', 'nodenext', file]
       await expect(run(process.execPath, args, { cwd: project })).resolves.toMatchObject({ stdout: '' })
     },
     MINUTES,

@@ -132,27 +132,52 @@ export interface ValueType {
 /** One value: boolean for BOOL, BigInt for LINT and ULINT, string for STRING and WSTRING, number for the others. */
 export type PlcValue = boolean | number | bigint | string
 
-/** What the values of each kind are in JavaScript. */
+/** What the values of each kind are in JavaScript: as they are read, and all that is taken when they are written. */
 interface ValueOfKind {
-  readonly bit: boolean
-  readonly integer: number
-  readonly long: bigint
-  readonly bcd: number
-  readonly real: number
-  readonly text: string
+  readonly bit: { readonly read: boolean; readonly written: boolean }
+  readonly integer: { readonly read: number; readonly written: number | bigint }
+  readonly long: { readonly read: bigint; readonly written: number | bigint }
+  readonly bcd: { readonly read: number; readonly written: number | bigint }
+  readonly real: { readonly read: number; readonly written: number }
+  readonly text: { readonly read: string; readonly written: string }
 }
 /** What a value of each type is in JavaScript. */
-export type TypeToValue = { readonly [N in TypeName]: ValueOfKind[(typeof valueTypes)[N]['kind']] }
+export type TypeToValue = { readonly [N in TypeName]: ValueOfKind[(typeof valueTypes)[N]['kind']]['read'] }
+/** What may be written as a value of each type. */
+export type TypeToWritten = { readonly [N in TypeName]: ValueOfKind[(typeof valueTypes)[N]['kind']]['written'] }
+
+/** The spellings of one row, as far as the compiler looks them up: see {@link spellingOf}. */
+type SpellingsOf<R> =
+  | (R extends { readonly aliases: readonly (infer A extends string)[] } ? A : never)
+  | WholeOrHalf<R extends { readonly gxWorks: infer G extends string } ? G : never>
+  | WholeOrHalf<R extends { readonly translated: readonly (infer T extends string)[] } ? T : never>
+/** `Word [Unsigned]/Bit String [16-bit]`: the whole, or one of the two. */
+type WholeOrHalf<T extends string> = T | (T extends `${infer A}/${infer B}` ? A | B : never)
+/** Spaces do not tell two types apart; in the wrong places the parser refuses them. */
+type Spelling<T extends string> = string extends T
+  ? string
+  : T extends `${infer A} ${infer B}`
+    ? Spelling<`${A}${B}`>
+    : Uppercase<T>
+type Spelt = { [N in TypeName as Spelling<N | SpellingsOf<(typeof valueTypes)[N]>>]: N }
+
+/** The name of the type that a text names, in any spelling; `never` when the compiler cannot tell. */
+export type TypeNamed<T extends string> =
+  Spelling<T> extends infer S
+    ? S extends keyof Spelt
+      ? Spelt[S]
+      : S extends `${infer W}(${number})`
+        ? W extends keyof Spelt
+          ? Extract<Spelt[W], TextName>
+          : never
+        : never
+    : never
+
 /**
- * What a value is in JavaScript, from the type's text: `ValueOf<'real'>` is number, `ValueOf<'STRING(20)'>` is string;
- * for a text unknown to the compiler (and for the aliases) any {@link PlcValue}.
+ * What a value is in JavaScript, from the type's text in any spelling: `ValueOf<'real'>` and `ValueOf<'FLOAT [Single
+ * Precision]'>` are number, `ValueOf<'STRING(20)'>` is string; for a text unknown to the compiler any {@link PlcValue}.
  */
-export type ValueOf<T extends string> =
-  Uppercase<T> extends TypeName
-    ? TypeToValue[Uppercase<T>]
-    : Uppercase<T> extends `${infer N extends TextName}(${number})`
-      ? TypeToValue[N]
-      : PlcValue
+export type ValueOf<T extends string> = [TypeNamed<T>] extends [never] ? PlcValue : TypeToValue[TypeNamed<T>]
 
 /** Longest string the CPU handles, without the closing NUL (iQ-R Programming Manual, 1.2 "Character string data"). */
 export const maxTextLength = 16383

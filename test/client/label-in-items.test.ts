@@ -348,7 +348,9 @@ describe('write', () => {
     asked.length = 0
     const wrong = client.write({ address: 'label:Line1.Values[0]', count: 3 }, [1, 2])
     await expect(wrong).rejects.toMatchObject({ code: 'BAD_VALUE', outcome: 'notSent' })
+    // @ts-expect-error: what a program without types may pass
     await expect(client.write('Line1.Values[0]:INT[2]', 1)).rejects.toMatchObject({ code: 'BAD_VALUE' })
+    // @ts-expect-error: an array begins with the element that is named
     await expect(client.write('Line1.Values', [1, 2])).rejects.toMatchObject({ code: 'BAD_ADDRESS' })
     await expect(client.write('Line1.Values[0]', [])).rejects.toMatchObject({ code: 'OUT_OF_RANGE' })
     const none = client.write('Line1.Ready', null as unknown as boolean)

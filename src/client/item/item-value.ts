@@ -1,38 +1,50 @@
 // Values of items: what is read, what became of it, and what may be written.
 import type { PlcError } from '../../errors'
-import type { PlcValue, ValueOf } from '../../value/value'
+import type { PlcValue, TypeToValue, TypeToWritten } from '../../value/value'
 import type { Item } from './item'
+import type { FactsOf, ItemFacts } from './item-text'
 
 /** A value read from an item without, or with, a count or range. */
 export type ReadValue = PlcValue | PlcValue[]
 
 /**
- * The type of an item's value as far as its text says it: `D100:REAL` number, `D100:REAL[4]` number[]. Brackets behind
- * the name of a label are an index and no count.
+ * The type of an item's value, as far as its text says it: `M10` boolean, `D100` number, `D100:REAL[4]` number[],
+ * `D200:STRING(20)` string. Where nobody can know it, e.g. of a label without a type, any {@link ReadValue}.
  */
-export type ItemValue<I> =
-  Lowercase<I & string> extends `label:${infer L}`
-    ? LabelItemValue<L>
-    : I extends `${string}:${infer T}[${string}]`
-      ? ValueOf<T>[]
-      : I extends `${string}..${string}`
-        ? PlcValue[]
-        : I extends `${string}:${infer T}`
-          ? ValueOf<T>
-          : ReadValue
+export type ItemValue<I> = I extends Item ? ValueRead<FactsOf<I>> : ReadValue
 
-type LabelItemValue<L> = L extends `${string}:${infer T}[${string}]`
-  ? ValueOf<T>[]
-  : L extends `${string}:${infer T}`
-    ? ValueOf<T>
-    : ReadValue
+type ValueRead<F extends ItemFacts> = [F['type']] extends [never]
+  ? Counted<F['count'], PlcValue>
+  : Counted<F['count'], TypeToValue[F['type']]>
+
+type Counted<N extends ItemFacts['count'], V> = N extends 'one' | 'element' ? V : N extends 'many' ? V[] : V | V[]
+
+/**
+ * What may be written to an item, as far as its text says it: to `M10` true or false, to `D100:REAL[4]` numbers, also
+ * as a typed array. Where nobody can know it, any {@link WriteValue}.
+ */
+export type ItemInput<I> = I extends Item ? ValueWritten<FactsOf<I>> : WriteValue
+
+type ValueWritten<F extends ItemFacts> = [F['type']] extends [never]
+  ? CountedInput<F['count'], PlcValue>
+  : CountedInput<F['count'], TypeToWritten[F['type']]>
+
+type CountedInput<N extends ItemFacts['count'], V> = N extends 'one'
+  ? V
+  : N extends 'many'
+    ? readonly V[] | ArrayOf<V>
+    : V | readonly V[] | ArrayOf<V>
+
+/** The typed arrays whose elements can be written as such values. */
+type ArrayOf<V> = bigint extends V ? NumberArray : number extends V ? Exclude<NumberArray, BigIntArray> : never
+type BigIntArray = BigInt64Array | BigUint64Array
 
 /** What became of one item. `timestamp`: when the answer with its (last) value arrived, or the failure was known. */
-export type ReadResult =
+export type ReadResult<V = ReadValue> =
   | {
       readonly item: string
       readonly ok: true
-      readonly value: PlcValue | PlcValue[]
+      readonly value: V
       readonly timestamp: number
       /** The array was read by more than one request: its values may be of different moments. */
       readonly torn?: true
@@ -64,13 +76,26 @@ export type WriteValue = PlcValue | readonly PlcValue[] | NumberArray
 /** Items to read: a list, or an object by name. */
 export type Items = readonly Item[] | Readonly<Record<string, Item>>
 
+// With `& unknown` editors show the values instead of the name.
+/** The values of items, in their order or by their names. */
+export type ItemValues<L extends Items> = { -readonly [K in keyof L]: ItemValue<L[K]> } & unknown
+
+/** What became of items, in their order or by their names. */
+export type ItemResults<L extends Items> = { -readonly [K in keyof L]: ReadResult<ItemValue<L[K]>> } & unknown
+
 /** One value to write. */
-export interface WriteEntry {
+export interface WriteEntry<I extends Item = Item> {
   /** What is written. */
-  readonly item: Item
+  readonly item: I
   /** A value of its type; of an array all of them. */
-  readonly value: WriteValue
+  readonly value: ItemInput<I>
 }
+
+/** Entries to write, one for each item of a list. */
+export type WriteEntries<L extends readonly Item[]> = { readonly [K in keyof L]: WriteEntry<L[K]> }
+
+/** Values to write, by address. */
+export type ItemInputs<A extends string> = { readonly [I in A]: ItemInput<I> }
 
 /** Values to write: a list of entries, or an object by address. */
 export type WriteValues = readonly WriteEntry[] | Readonly<Record<string, WriteValue>>

@@ -150,11 +150,13 @@ export function formatItem(item: Omit<ParsedItem, 'text' | 'format'>, options: A
 /** Type of an item that does not say one. */
 export function defaultType(device: ParsedDevice): ValueType {
   if (device.bit !== undefined) return { name: 'BOOL' }
-  if (device.digits !== undefined) return { name: device.digits <= 4 ? 'INT' : 'DINT' }
+  if (device.digits !== undefined) return { name: DEFAULT_TYPES[device.digits <= 4 ? 'word' : 'doubleWord'] }
   return { name: DEFAULT_TYPES[deviceInfo(device.address.device).unit] }
 }
 
 const DEFAULT_TYPES = { bit: 'BOOL', word: 'INT', doubleWord: 'DINT' } as const
+/** Type of the values of a device, by its unit. */
+export type DefaultTypes = typeof DEFAULT_TYPES
 
 type Fail = (code: RequestErrorCode, message: string) => never
 

@@ -8,7 +8,6 @@
 
 import { shown } from '../../basics/show'
 import { RequestError } from '../../errors'
-import type { AddressOptions } from '../../melsec/device/address'
 import { isLabelName, isPlainLabel } from '../../melsec/label/plain-label'
 import { doubtOf, lackOf, type Profile } from '../../melsec/profiles/profile'
 import { checkedItem, type Item, type ItemOptions, LABEL_PREFIX, type ParsedItem, type RefusedItem } from '../item/item'
@@ -84,7 +83,7 @@ function onlyOne<F extends 'type' | 'count'>(given: ItemOptions, field: F, inTex
 }
 
 /** What a text that is no device may be on this PLC. */
-export interface LabelContext extends AddressOptions {
+export interface LabelContext {
   readonly profile: Profile
 }
 
@@ -92,7 +91,7 @@ export interface LabelContext extends AddressOptions {
  * An item that no device is named by: the label it is, or why it is none, with what to do.
  * @param error why it is no item of a device
  */
-export function labelInstead(item: Item, error: RequestError, { profile, ...notation }: LabelContext): AnyItem {
+export function labelInstead(item: Item, error: RequestError, { profile }: LabelContext): AnyItem {
   const text = addressOf(item)
   const refused = (message: string): RefusedItem => ({
     text: itemText(item),
@@ -101,7 +100,7 @@ export function labelInstead(item: Item, error: RequestError, { profile, ...nota
   const { name } = partsOf(text)
   if (!isLabelName(name.trim())) return refused('')
   const lack = lackOf(profile, 'readRandomLabels')
-  const isPlain = isPlainLabel(name, notation)
+  const isPlain = isPlainLabel(name)
   if (lack !== undefined) return refused(isPlain ? `If it is a label: ${lack.reason} ${lack.instead}` : '')
   if (isPlain && doubtOf(profile, 'readRandomLabels') === undefined) return parsedLabel(item)
   return refused(error.code === 'BAD_ADDRESS' ? `If it is a label, write label:${shown(text.trim())}.` : '')

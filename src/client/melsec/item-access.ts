@@ -23,7 +23,7 @@ import { ItemMonitor, type Monitor, type Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
 import { planRead } from '../plan/read'
 import type { SendExchange } from '../plan/request'
-import { type PlannedEntry, planWrite, type WriteOptions, type WriteResult } from '../plan/write'
+import { type PlannedEntry, planWrite, type WriteCallOptions, type WriteOptions, type WriteResult } from '../plan/write'
 import type { OpenCall } from '../plan/write-turns'
 import { type LabelLender, MixedItems, mixedMonitor, mixedReadPlan } from './mixed-read'
 import { type MixedEntry, MixedWrite } from './mixed-write'
@@ -84,10 +84,7 @@ export class ItemAccess {
   }
 
   /** A result for each entry, in their order. */
-  async write(
-    entries: readonly WriteEntry[],
-    options: (CallOptions & WriteOptions) | undefined,
-  ): Promise<WriteResult[]> {
+  async write(entries: readonly WriteEntry[], options: WriteCallOptions | undefined): Promise<WriteResult[]> {
     const call = callOptionsOf(options, WRITE_OPTIONS)
     const { readModifyWrite, allOrNothing } = options ?? {}
     const how = {
@@ -179,7 +176,7 @@ export class ItemAccess {
       return parsed
     } catch (error) {
       if (!(error instanceof RequestError)) throw error
-      return this.#askable(labelInstead(item, error, { profile, ...this.#notation }))
+      return this.#askable(labelInstead(item, error, { profile }))
     }
   }
 

@@ -20,13 +20,23 @@ import { FileAccess, type Files } from '../file/files'
 import { nameResults } from '../item/about'
 import { checkRequest, isItem, isList, namesOf, namesOfItems } from '../item/input-checks'
 import type { Item } from '../item/item'
-import type { Items, ItemValue, ReadResult, ReadValue, WriteEntry, WriteValue, WriteValues } from '../item/item-value'
+import type {
+  ItemInput,
+  ItemInputs,
+  ItemResults,
+  Items,
+  ItemValue,
+  ItemValues,
+  WriteEntries,
+  WriteValue,
+  WriteValues,
+} from '../item/item-value'
 import { byName, checkAllWritten, entriesOf, plainValue } from '../item/many-items'
 import type { ItemExplanation } from '../label/explain'
 import { type Labels, labelsOf } from '../label/labels'
 import { type Monitor, Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
-import type { WriteOptions, WriteResult } from '../plan/write'
+import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
 import type { ClientEvents } from './client-events'
@@ -259,12 +269,8 @@ export class MelsecClient {
    * @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' })
    */
   read<const I extends Item>(item: I, options?: CallOptions): Promise<ItemValue<I>>
-  read(items: readonly Item[], options?: CallOptions): Promise<ReadResult[]>
-  read<K extends string>(items: Readonly<Record<K, Item>>, options?: CallOptions): Promise<Record<K, ReadResult>>
-  async read(
-    items: Item | Items,
-    options?: CallOptions,
-  ): Promise<ReadValue | ReadResult[] | Record<string, ReadResult>> {
+  read<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
+  async read(items: Item | Items, options?: CallOptions): Promise<unknown> {
     if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
     if (!isList(items)) namesOfItems(items, ITEMS)
     return this.readEach(items, options)
@@ -273,10 +279,8 @@ export class MelsecClient {
   /**
    * Reads many items in few requests, with a result for each: one that cannot be read does not hide the others.
    */
-  readEach(items: readonly Item[], options?: CallOptions): Promise<ReadResult[]>
-  readEach<K extends string>(items: Readonly<Record<K, Item>>, options?: CallOptions): Promise<Record<K, ReadResult>>
-  readEach(items: Items, options?: CallOptions): Promise<ReadResult[] | Record<string, ReadResult>>
-  async readEach(items: Items, options?: CallOptions): Promise<ReadResult[] | Record<string, ReadResult>> {
+  readEach<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
+  async readEach(items: Items, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return this.#items.prepare(items).run(options)
     const names = namesOf(items, ITEMS)
     return byName(names, await this.#named(names, items, options))
@@ -287,14 +291,7 @@ export class MelsecClient {
    * @throws the first item's error when any item failed.
    * @example const { level, temperature } = await plc.readValues({ level: 'D100:REAL', temperature: 'D102:REAL' })
    */
-  readValues<const L extends readonly Item[]>(
-    items: L,
-    options?: CallOptions,
-  ): Promise<{ -readonly [K in keyof L]: ItemValue<L[K]> }>
-  readValues<const R extends Readonly<Record<string, Item>>>(
-    items: R,
-    options?: CallOptions,
-  ): Promise<{ -readonly [K in keyof R]: ItemValue<R[K]> }>
+  readValues<const L extends Items>(items: L, options?: CallOptions): Promise<ItemValues<L>>
   async readValues(items: Items, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
     const names = namesOf(items, ITEMS)
@@ -309,7 +306,8 @@ export class MelsecClient {
    * The requests that read these items: to look at (`describe()`), and to run again and again without parsing.
    * Items that cannot be read keep their error as their result.
    */
-  plan(items: readonly Item[]): ReadPlan {
+  plan<const L extends readonly Item[]>(items: L): ReadPlan<ItemResults<L>>
+  plan(items: readonly Item[]): ReadPlan<unknown> {
     return this.#items.plan(items)
   }
 
@@ -329,21 +327,23 @@ export class MelsecClient {
   }
 
   /**
-   * Writes one item, or many as `writeValues`. Needs `allowWrites`. When it resolves, everything was written. A write
+   * Writes many items as `writeValues`, or one. Needs `allowWrites`. When it resolves, everything was written. A write
    * whose outcome is unknown is never repeated.
    * @throws WriteError of many, when anything was not written
    * @example await plc.write('D200:REAL', 71.5)
    * @example await plc.write({ 'D200:REAL': 71.5, M10: true })
    */
-  write(item: Item, value: WriteValue, options?: CallOptions & WriteOptions): Promise<void>
-  write(values: WriteValues, options?: CallOptions & WriteOptions): Promise<void>
+  write<const L extends readonly Item[], A extends string>(
+    values: WriteEntries<L> | ItemInputs<A>,
+    options?: WriteCallOptions,
+  ): Promise<void>
+  write<const I extends Item>(item: I, value: ItemInput<I>, options?: WriteCallOptions): Promise<void>
   async write(
     target: Item | WriteValues,
-    second?: WriteValue | (CallOptions & WriteOptions),
-    third?: CallOptions & WriteOptions,
+    second?: WriteValue | WriteCallOptions,
+    third?: WriteCallOptions,
   ): Promise<void> {
-    if (!isItem(target))
-      return this.writeValues(target, optionsOfMany(second as (CallOptions & WriteOptions) | undefined, third))
+    if (!isItem(target)) return this.writeValues(target, optionsOfMany(second as WriteCallOptions | undefined, third))
     const [result] = await this.#items.write([{ item: target, value: second as WriteValue }], third)
     if (result?.ok === false) throw result.error
   }
@@ -353,7 +353,10 @@ export class MelsecClient {
    * @throws WriteError when anything was not written: its `results` say what became of each item
    * @example await plc.writeValues({ 'D200:REAL': 71.5, M10: true })
    */
-  async writeValues(values: WriteValues, options?: CallOptions & WriteOptions): Promise<void> {
+  async writeValues<const L extends readonly Item[], A extends string>(
+    values: WriteEntries<L> | ItemInputs<A>,
+    options?: WriteCallOptions,
+  ): Promise<void> {
     checkAllWritten(await this.#items.write(entriesOf(values), options))
   }
 
@@ -361,18 +364,18 @@ export class MelsecClient {
    * Writes many items as `writeValues` does, with a result for each instead of an error. Look at each of them.
    * @example const results = await plc.writeEach({ 'D200:REAL': 71.5, M10: true })
    */
-  writeEach(entries: readonly WriteEntry[], options?: CallOptions & WriteOptions): Promise<WriteResult[]>
-  writeEach<K extends string>(
-    values: Readonly<Record<K, WriteValue>>,
-    options?: CallOptions & WriteOptions,
-  ): Promise<Record<K, WriteResult>>
-  async writeEach(values: WriteValues, options?: CallOptions & WriteOptions): Promise<unknown> {
+  writeEach<const L extends readonly Item[]>(
+    entries: WriteEntries<L>,
+    options?: WriteCallOptions,
+  ): Promise<WriteResult[]>
+  writeEach<A extends string>(values: ItemInputs<A>, options?: WriteCallOptions): Promise<Record<A, WriteResult>>
+  async writeEach(values: WriteValues, options?: WriteCallOptions): Promise<unknown> {
     const results = await this.#items.write(entriesOf(values), options)
     return isList(values) ? results : byName(Object.keys(values), results)
   }
 
   /** The requests that write these values: to look at before they are run. */
-  planWrite(entries: readonly WriteEntry[], options: WriteOptions = {}): WritePlan {
+  planWrite<const L extends readonly Item[]>(entries: WriteEntries<L>, options: WriteOptions = {}): WritePlan {
     return this.#items.planWrite(entries, options)
   }
 
@@ -380,7 +383,8 @@ export class MelsecClient {
    * Items that are registered in the PLC once and then read with a request that names none of them (0801, 0802).
    * Where the profile has no monitor commands, Read Random is used instead and `note` says so.
    */
-  monitor(items: readonly Item[]): Monitor {
+  monitor<const L extends readonly Item[]>(items: L): Monitor<ItemResults<L>>
+  monitor(items: readonly Item[]): Monitor<unknown> {
     return this.#items.monitor(items)
   }
 

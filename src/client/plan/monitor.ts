@@ -73,7 +73,7 @@ export class Registration {
 }
 
 /** Monitoring of some items; made by `client.monitor(items)`. */
-export interface Monitor {
+export interface Monitor<R = ReadResult[]> {
   /**
    * `monitor`: registered in the PLC. `read`: read anew each time, because they cannot be registered together, or, since
    * the last `read()`, because the PLC has refused to register them.
@@ -82,7 +82,7 @@ export interface Monitor {
   /** Why the PLC's monitor is not used, in words; undefined when it is. */
   readonly note: string | undefined
   /** Reads all items once; each has its own result. */
-  read(options?: CallOptions): Promise<ReadResult[]>
+  read(options?: CallOptions): Promise<R>
 }
 
 /** A refusal of the PLC, and the connection it was on. */

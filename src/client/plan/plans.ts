@@ -5,9 +5,9 @@ import type { ReadResult } from '../item/item-value'
 import type { PlanDescription } from './request'
 
 /** A prepared read: run it again and again; nothing is parsed or encoded anew. */
-export interface ReadPlan {
+export interface ReadPlan<R = ReadResult[]> {
   /** Reads all items once. Each has its own result; it rejects only for a bug. */
-  run(options?: CallOptions): Promise<ReadResult[]>
+  run(options?: CallOptions): Promise<R>
   /** Requests, points, bytes and notes, for people. */
   describe(): PlanDescription
   /** `describe()` as text: a line for each request, then the notes. */

@@ -6,6 +6,7 @@
 import { ClosedError, EndCodeError, PlcError, RequestError, type WriteResult } from '../../errors'
 import type { Notation } from '../../melsec/device/json'
 import { addressOptionsOf, type Profile } from '../../melsec/profiles/profile'
+import type { CallOptions } from '../connection/call'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { PlainValue } from '../item/item-value'
@@ -34,6 +35,9 @@ export interface WriteOptions {
   /** SendExchange nothing when one entry is bad, and nothing more after the first failure. */
   readonly allOrNothing?: boolean
 }
+
+/** Options of a call that writes. */
+export interface WriteCallOptions extends CallOptions, WriteOptions {}
 
 /** The notation is that of descriptions; default: the profile's. */
 export interface PlanWriteOptions extends WriteOptions, Notation {}

@@ -192,6 +192,11 @@ const ROWS = [
 /** Name of a device as GX Works writes it, e.g. `D`, `STN`, `ZR`. */
 export type DeviceName = (typeof ROWS)[number]['name']
 
+/** The devices by name, for the compiler: what an address without a type holds, and how its number is written. */
+export type DeviceTable = {
+  readonly [R in (typeof ROWS)[number] as R['name']]: { readonly unit: R['unit']; readonly radix: R['radix'] }
+}
+
 /** One row of the device table. */
 export interface DeviceInfo extends DeviceRow {
   /** As GX Works writes it. */

@@ -7,7 +7,7 @@
  * are devices, so what is an address is never a label here.
  */
 import { RequestError } from '../../errors'
-import { type AddressOptions, parseDevice } from '../device/address'
+import { parseDevice } from '../device/address'
 import { hintFor, otherSpelling } from '../device/address-hint'
 import { devices } from '../device/device'
 import { parseLabel } from './label'
@@ -53,21 +53,21 @@ export function isLabelName(text: string): boolean {
 /**
  * Whether it is the name of a label and cannot have been meant as an address.
  * @param text without a type behind it
- * @example isPlainLabel('Line1.Speed', { xyRadix: 16 }) // true
- * @example isPlainLabel('DD100', { xyRadix: 16 })       // false
+ * @example isPlainLabel('Line1.Speed') // true
+ * @example isPlainLabel('DD100')       // false
  */
-export function isPlainLabel(text: string, options: AddressOptions): boolean {
+export function isPlainLabel(text: string): boolean {
   const name = text.trim()
   // Full-width letters, as an input method leaves them, look like the same address.
-  return isLabelName(name) && !looksLikeAddress(name.normalize('NFKC').toUpperCase(), options)
+  return isLabelName(name) && !looksLikeAddress(name.normalize('NFKC').toUpperCase())
 }
 
-function looksLikeAddress(name: string, options: AddressOptions): boolean {
+function looksLikeAddress(name: string): boolean {
   // `U3.G100`, `XFFFH`: whatever this PLC has of it, it is not sent as a name.
   if (otherSpelling(name.replace(/\[[^\]]*\]$/, '')) !== undefined) return true
   const [, first = '', index, rest] = /^([^.[]*)(\[[^\]]*\])?(?:\.(.*))?$/s.exec(name) ?? []
-  if (first.includes('_') || FOREIGN_LETTER.test(first)) return isAddress(first, options)
-  if (DEVICE_AND_NUMBER.test(first) || isAddress(first, options)) return true
+  if (first.includes('_') || FOREIGN_LETTER.test(first)) return isAddress(first)
+  if (DEVICE_AND_NUMBER.test(first) || isAddress(first)) return true
   // Nothing but a bit number stands behind the dot of an address; an index stands at its end.
   const isBit = rest !== undefined && index === undefined && /^[0-9A-F](?:\[|$)/.test(rest)
   if (rest === undefined || isBit) {
@@ -81,9 +81,12 @@ function looksLikeAddress(name: string, options: AddressOptions): boolean {
   return /\d/.test(first) && hintFor(name.replace(/\[[^\]]*\]/g, '')) !== ''
 }
 
-function isAddress(text: string, options: AddressOptions): boolean {
+/** The notation that takes most: where X and Y are octal, `XFACE` is refused, but it is no name either. */
+const HEXADECIMAL = { xyRadix: 16, wRadix: 16 } as const
+
+function isAddress(text: string): boolean {
   try {
-    parseDevice(text, options)
+    parseDevice(text, HEXADECIMAL)
     return true
   } catch (error) {
     if (error instanceof RequestError) return false
