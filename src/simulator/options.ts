@@ -102,7 +102,7 @@ export interface PlcSimulatorOptions {
 }
 
 /** The options with every default filled in. */
-export interface Settings {
+export interface SimulatorSettings {
   readonly profile: Profile
   readonly code: DataCode
   readonly frames: readonly FrameName[]
@@ -136,10 +136,10 @@ export interface Settings {
 const MODEL_LENGTH = 16
 
 /** @throws RequestError BAD_OPTION */
-export function settingsOf(options: PlcSimulatorOptions): Settings {
+export function settingsOf(options: PlcSimulatorOptions): SimulatorSettings {
   const profile = resolveProfile(options.profile ?? 'iq-r', options.profileOverrides)
   const code = oneOf('code', options.code ?? 'binary', profile.codes)
-  const settings: Settings = {
+  const settings: SimulatorSettings = {
     profile,
     code,
     frames: framesOf(profile, code, options.frames),
@@ -176,7 +176,7 @@ export function settingsOf(options: PlcSimulatorOptions): Settings {
   return settings
 }
 
-function digitsOf(profile: Profile, given: PlcSimulatorOptions['asciiXy']): Settings['asciiXy'] {
+function digitsOf(profile: Profile, given: PlcSimulatorOptions['asciiXy']): SimulatorSettings['asciiXy'] {
   const asciiXy = given === undefined ? undefined : oneOf('asciiXy', given, ['octal', 'hexadecimal'])
   return asciiXyOf(profile, asciiXy) ?? (profile.xyRadix === 8 ? 'octal' : 'hexadecimal')
 }

@@ -11,7 +11,7 @@ import { Files, type FilesParts } from './files'
 import type { Call, Caller, Handler } from './handler'
 import { handlers } from './handlers'
 import { DeviceMemory } from './memory'
-import type { Settings } from './options'
+import type { SimulatorSettings } from './options'
 import { TypedMemory } from './program-memory'
 import { Refusal } from './refusal'
 import { type Ports, type Received, slmpOf } from './request'
@@ -38,7 +38,7 @@ type PlcSettings =
   | 'resetAllowed'
   | 'otherStations'
 
-export interface PlcParts extends Pick<Settings, PlcSettings> {
+export interface PlcParts extends Pick<SimulatorSettings, PlcSettings> {
   /** Clock of the PLC, as files have it. */
   readonly now: FilesParts['now']
   readonly changed: (change: StateChange) => void

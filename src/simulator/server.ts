@@ -18,7 +18,7 @@ import { Emitter } from './events'
 import { type FaultSubject, Faults } from './faults'
 import { fileClock } from './file-clock'
 import { chosen, type OnDemandData, type OnDemandOptions, onDemandBytes } from './on-demand'
-import { type PlcSimulatorOptions, type Settings, settingsOf } from './options'
+import { type PlcSimulatorOptions, type SimulatorSettings, settingsOf } from './options'
 import { Plc } from './plc'
 import { PortPassword } from './port-lock'
 import type {
@@ -169,7 +169,7 @@ class Simulator implements PlcSimulator {
   readonly cpu: Cpu
   readonly faults = new Faults()
   readonly errors: ErrorLog
-  readonly #settings: Settings
+  readonly #settings: SimulatorSettings
   readonly #shared: Shared
   readonly #plc: Plc
   readonly #events = new Emitter<SimulatorEvents>()
@@ -187,7 +187,7 @@ class Simulator implements PlcSimulator {
   #listening: Promise<void> | undefined
   #closing: Promise<void> | undefined
 
-  constructor(settings: Settings) {
+  constructor(settings: SimulatorSettings) {
     const { profile, clock, labels } = settings
     this.#settings = settings
     const now = () => fileClock(clock.time())

@@ -16,7 +16,7 @@ import { commandText, describeHead, subcommandText } from './head'
 import { describeValue, devicesOf, type Placed, splitRow, summaryOf, type WordsFor } from './values'
 
 /** What is known before a frame is read. */
-export interface Settings extends WordsFor {
+export interface ExplainSettings extends WordsFor {
   readonly code: DataCode
   readonly profile: Profile
   readonly asciiXy: 'octal' | 'hexadecimal' | undefined
@@ -41,20 +41,20 @@ interface Recognised {
 }
 
 /** The command that a command and a subcommand number name. */
-function recognise({ commands, profile }: Settings, code: number, subcommand: number): Recognised | undefined {
+function recognise({ commands, profile }: ExplainSettings, code: number, subcommand: number): Recognised | undefined {
   const found = findCommand(commands, profile, code, subcommand)
   return found === undefined ? undefined : { ...found, subcommand }
 }
 
 /** Digits of X, Y and ZR in ASCII code are a setting of the port: bits of the value codecs. */
-function digitBits({ code, profile, asciiXy, asciiZr }: Settings): number {
+function digitBits({ code, profile, asciiXy, asciiZr }: ExplainSettings): number {
   if (code !== 'ascii') return 0
   const octal = asciiXy === undefined ? profile.xyRadix === 8 : asciiXy === 'octal'
   return (octal ? FORM_XY_OCTAL : 0) | (asciiZr === 'hexadecimal' ? FORM_ZR_HEX : 0)
 }
 
 /** The body of a request read without words, for the answer to it; `undefined` when it is none. */
-export function readRequestBody(body: Buffer, settings: Settings): KnownRequest | undefined {
+export function readRequestBody(body: Buffer, settings: ExplainSettings): KnownRequest | undefined {
   const { code } = settings
   const head = annotate({ ...commandFields, ...reservedOf(settings) }, body, { code })
   const found = recognise(settings, Number(head.message.command), Number(head.message.subcommand))
@@ -64,7 +64,7 @@ export function readRequestBody(body: Buffer, settings: Settings): KnownRequest 
   return data.fault === undefined ? { command: found.command, form, message: data.message } : undefined
 }
 
-function reservedOf({ body = plainBody }: Settings): Shape {
+function reservedOf({ body = plainBody }: ExplainSettings): Shape {
   return body.reserved
 }
 
@@ -78,7 +78,7 @@ export interface ExplainedBody {
 }
 
 /** Reads command, subcommand and data of a request. */
-export function explainRequestBody(explainer: Explainer, settings: Settings): ExplainedBody {
+export function explainRequestBody(explainer: Explainer, settings: ExplainSettings): ExplainedBody {
   const start = explainer.position
   const { found, code, subcommand } = readCommand(explainer, settings)
   if (explainer.fault !== undefined) return { command: undefined, title: 'cut short', secret: false }
@@ -89,7 +89,7 @@ export function explainRequestBody(explainer: Explainer, settings: Settings): Ex
 /** Command, subcommand and fixed values, as they stand in requests and where answers repeat them. */
 function readCommand(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
 ): { readonly found: Recognised | undefined; readonly code: number; readonly subcommand: number } {
   let found: Recognised | undefined
   const { command: code, subcommand } = annotate(commandFields, explainer.ahead(), { code: settings.code }).message
@@ -99,7 +99,7 @@ function readCommand(
 }
 
 /** Command and subcommand in words, and what stands beside them. */
-function commandWords(settings: Settings, command: Command | undefined): (leaf: Leaf) => string | undefined {
+function commandWords(settings: ExplainSettings, command: Command | undefined): (leaf: Leaf) => string | undefined {
   return (leaf) => {
     if (leaf.name === 'command') return commandText(Number(leaf.value), command ?? named(settings, leaf.value))
     return leaf.name === 'subcommand' ? subcommandText(Number(leaf.value), command?.unit) : describeHead(leaf)
@@ -115,7 +115,7 @@ function explainUnknown(explainer: Explainer, start: number, code: number, subco
 
 function explainKnown(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
   { command, form, subcommand }: Recognised,
 ): ExplainedBody {
   const bits = codecBits(command, form, subcommand) | digitBits(settings)
@@ -138,7 +138,7 @@ function explainKnown(
 /** Reads the data of an answer: with the request field by field, without it as words. */
 export function explainResponseBody(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
   request: KnownRequest | undefined,
   registration: KnownRequest | undefined,
 ): ExplainedBody {
@@ -166,7 +166,7 @@ export function explainResponseBody(
 
 /** The request an answer's shape refers to: for Execute Monitor the registration before it. */
 function contextOf(
-  { commands }: Settings,
+  { commands }: ExplainSettings,
   { command, message }: KnownRequest,
   registration: KnownRequest | undefined,
 ): Context | undefined {
@@ -178,7 +178,7 @@ function contextOf(
 
 function readData(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
   shape: Shape,
   options: { readonly form: number; readonly context?: Context },
 ): Message {
@@ -194,7 +194,7 @@ function readData(
 }
 
 /** Answer data without its request: words as far as they are whole words, else bytes. */
-function explainRaw(explainer: Explainer, settings: Settings, noted = false): void {
+function explainRaw(explainer: Explainer, settings: ExplainSettings, noted = false): void {
   if (explainer.remaining === 0) return
   if (!noted) explainer.notes.push('What the values mean is in the request: give it to have them named.')
   const count = explainer.remaining / (2 * explainer.unit)
@@ -210,7 +210,7 @@ function explainRaw(explainer: Explainer, settings: Settings, noted = false): vo
 export const OTHER_COMMAND = 'The answer is about another command than the request that was given.'
 
 /** Reads what stands behind an end code: which station refused which command. */
-export function explainErrorInformation(explainer: Explainer, settings: Settings): Message {
+export function explainErrorInformation(explainer: Explainer, settings: ExplainSettings): Message {
   const { errorInformation } = settings.body ?? plainBody
   const { command, subcommand } = annotate(errorInformation, explainer.ahead(), { code: settings.code }).message
   const found = recognise(settings, Number(command), Number(subcommand))?.command
@@ -218,12 +218,16 @@ export function explainErrorInformation(explainer: Explainer, settings: Settings
 }
 
 /** A command of this number, whatever its subcommand. */
-function named({ commands }: Settings, code: unknown): Command | undefined {
+function named({ commands }: ExplainSettings, code: unknown): Command | undefined {
   return Object.values(commands).find((command) => command.code === code)
 }
 
 /** Says which setting of the port the addresses of these devices depend on, when nobody has said it. */
-export function noteUncertainDigits(explainer: Explainer, settings: Settings, used: readonly DeviceName[]): void {
+export function noteUncertainDigits(
+  explainer: Explainer,
+  settings: ExplainSettings,
+  used: readonly DeviceName[],
+): void {
   if (settings.code !== 'ascii') return
   if (settings.asciiXy === undefined && settings.profile.xyRadix === 8 && (used.includes('X') || used.includes('Y'))) {
     explainer.notes.push('X and Y are read as octal digits; if the port is set to "ASCII (X,Y HEX)", say asciiXy.')

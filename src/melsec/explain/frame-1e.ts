@@ -11,7 +11,7 @@ import { formatDevice } from '../device/address'
 import { FORM_XY_OCTAL } from '../device/codec'
 import type { DeviceAddress } from '../device/device'
 import { mayEndWithZero, WITH_ABNORMAL_CODE } from '../frame/frame-1e'
-import { noteBitUnits, noteUncertainDigits, type Settings } from './body'
+import { type ExplainSettings, noteBitUnits, noteUncertainDigits } from './body'
 import { commandText, describeHead, endCodeText } from './head'
 import type { ExplainFrameOptions, Known } from './options'
 import { describeValue, devicesOf, splitRow, summaryOf } from './values'
@@ -33,7 +33,7 @@ interface Request {
 
 export function explain1e(bytes: Buffer, known: Known, options: ExplainFrameOptions): FrameExplanation {
   const code = options.code ?? codeOf(bytes)
-  const settings: Settings = { ...known, code }
+  const settings: ExplainSettings = { ...known, code }
   const explainer = new Explainer(bytes, code)
   const subheader = firstByte(bytes, code)
   const direction = options.direction ?? (subheader !== undefined && subheader >= ANSWER ? 'response' : 'request')
@@ -56,7 +56,7 @@ function commandOf(code: unknown): Command | undefined {
   return Object.values(aCompatibleCommands).find((command) => command.code === code)
 }
 
-function formOf({ code, profile, asciiXy }: Settings): number {
+function formOf({ code, profile, asciiXy }: ExplainSettings): number {
   const octal = asciiXy === undefined ? profile.xyRadix === 8 : asciiXy === 'octal'
   return code === 'ascii' && octal ? FORM_XY_OCTAL : 0
 }
@@ -64,7 +64,7 @@ function formOf({ code, profile, asciiXy }: Settings): number {
 const nameOf = (direction: Direction, code: DataCode) =>
   `1E ${direction}, ${code === 'ascii' ? 'ASCII' : 'binary'} code`
 
-function explainRequest(explainer: Explainer, settings: Settings, total: number): FrameExplanation {
+function explainRequest(explainer: Explainer, settings: ExplainSettings, total: number): FrameExplanation {
   const { code } = settings
   const head = explainer.read(requestHead, describe1e)
   const command = commandOf(head.subheader)
@@ -110,7 +110,7 @@ function describe1e(leaf: Leaf): string | undefined {
 
 function readData(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
   shape: Shape,
   command: Command,
   request?: Message,
@@ -125,7 +125,7 @@ function readData(
   )
 }
 
-function describeData(leaf: Leaf, settings: Settings): string | undefined {
+function describeData(leaf: Leaf, settings: ExplainSettings): string | undefined {
   const { field: of, value } = leaf
   if (of === aCompatibleCommands.readPcType.response.typeCode && typeof value === 'number') {
     return `${value.toString(16).toUpperCase()}H (${pcTypeCodes.get(value)?.join(' or ') ?? 'not a type code of the manual'})`
@@ -159,7 +159,7 @@ function explainZeroBehind(explainer: Explainer, command: number, endCode: unkno
 
 function explainResponse(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
   options: ExplainFrameOptions,
   total: number,
 ): FrameExplanation {
@@ -199,7 +199,7 @@ function explainResponse(
   return end(explainer, { ...about, title: `${name}: ${title}`, command: asked.command.name }, total)
 }
 
-function requestIn(bytes: Buffer, settings: Settings): Request | undefined {
+function requestIn(bytes: Buffer, settings: ExplainSettings): Request | undefined {
   const { code } = settings
   const head = annotate(requestHead, bytes, { code })
   const command = commandOf(head.message.subheader)

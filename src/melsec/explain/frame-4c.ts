@@ -5,7 +5,13 @@ import { type AnnotatedRow, type FrameFault, showBytes } from '../../codec/annot
 import { field, type Shape, sumOf } from '../../codec/codec'
 import { type Direction, Explainer, type FrameExplanation } from '../../codec/explanation'
 import { frame4cFormat5 } from '../frame/frame-4c'
-import { explainRequestBody, explainResponseBody, type KnownRequest, readRequestBody, type Settings } from './body'
+import {
+  type ExplainSettings,
+  explainRequestBody,
+  explainResponseBody,
+  type KnownRequest,
+  readRequestBody,
+} from './body'
 import { describeHead, endCodeText } from './head'
 import type { ExplainFrameOptions } from './options'
 
@@ -41,7 +47,7 @@ interface Content {
   readonly fault?: FrameFault
 }
 
-export function explain4c(bytes: Buffer, settings: Settings, options: ExplainFrameOptions): FrameExplanation {
+export function explain4c(bytes: Buffer, settings: ExplainSettings, options: ExplainFrameOptions): FrameExplanation {
   const { plain, at, end, fault } = contentOf(bytes)
   const explainer = new Explainer(plain, 'binary')
   const inside = explainContent(explainer, settings, options, end !== undefined)
@@ -130,7 +136,7 @@ function closingRows(
 
 function explainContent(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
   options: ExplainFrameOptions,
   complete: boolean,
 ): FrameExplanation {
@@ -173,7 +179,7 @@ function explainContent(
   return explainer.end({ ...about, ...known, endCode, title: title === '' ? name : `${name}: ${title}` }, total, secret)
 }
 
-function requestIn(bytes: Buffer | undefined, settings: Settings): KnownRequest | undefined {
+function requestIn(bytes: Buffer | undefined, settings: ExplainSettings): KnownRequest | undefined {
   if (bytes === undefined) return undefined
   for (const sumCheck of [true, false]) {
     try {

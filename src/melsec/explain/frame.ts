@@ -10,13 +10,13 @@ import { slmpFraming } from '../frame/slmp-frame'
 import { addressOptionsOf, asciiXyOf } from '../profiles/profile'
 import { resolveProfile } from '../profiles/profiles'
 import {
+  type ExplainSettings,
   explainErrorInformation,
   explainRequestBody,
   explainResponseBody,
   type KnownRequest,
   OTHER_COMMAND,
   readRequestBody,
-  type Settings,
 } from './body'
 import { explain1e } from './frame-1e'
 import { explain4c } from './frame-4c'
@@ -142,7 +142,7 @@ function upToLength({ frame }: Subheader): Shape {
 
 function explain3e(bytes: Buffer, known: Known, detected: Subheader, options: ExplainFrameOptions): FrameExplanation {
   const { frame, code, direction } = detected
-  const settings: Settings = { ...known, code, body: bodies[frame] }
+  const settings: ExplainSettings = { ...known, code, body: bodies[frame] }
   const explainer = new Explainer(bytes, code)
   const lengthEnd = endOfLength(bytes, detected)
   const head = explainer.read(headOf(detected), (leaf) => {
@@ -168,7 +168,7 @@ function explain3e(bytes: Buffer, known: Known, detected: Subheader, options: Ex
 /** Commands for the connected station only, sent elsewhere. */
 function noteConnectedOnly(
   explainer: Explainer,
-  { commands }: Settings,
+  { commands }: ExplainSettings,
   name: string | undefined,
   { network, station, extensionStation = 0 }: Readonly<Record<string, unknown>>,
 ): void {
@@ -208,14 +208,14 @@ interface Rest {
   readonly about: Pick<FrameExplanation, 'command' | 'endCode'>
 }
 
-function explainRequest(explainer: Explainer, settings: Settings): Rest {
+function explainRequest(explainer: Explainer, settings: ExplainSettings): Rest {
   const { command, title, secret } = explainRequestBody(explainer, settings)
   return { title, secret, about: aboutOf(command) }
 }
 
 function explainResponse(
   explainer: Explainer,
-  settings: Settings,
+  settings: ExplainSettings,
   options: ExplainFrameOptions,
   serial: number | undefined,
 ): Rest {
@@ -244,7 +244,7 @@ function aboutOf(command: Command | undefined): Rest['about'] {
 }
 
 /** Error information; devices exist that shorten it or leave it out. */
-function explainRefusal(explainer: Explainer, settings: Settings, asked: KnownRequest | undefined): void {
+function explainRefusal(explainer: Explainer, settings: ExplainSettings, asked: KnownRequest | undefined): void {
   if (explainer.remaining === 0) return
   const found = explainErrorInformation(explainer, settings)
   if (asked !== undefined && typeof found.command === 'number' && found.command !== asked.command.code) {
@@ -256,7 +256,7 @@ function explainRefusal(explainer: Explainer, settings: Settings, asked: KnownRe
 function requestOf(
   explainer: Explainer,
   bytes: Buffer | undefined,
-  settings: Settings,
+  settings: ExplainSettings,
   serial: number | undefined,
   option: string,
 ): KnownRequest | undefined {

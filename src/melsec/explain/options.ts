@@ -4,7 +4,7 @@ import type { Direction } from '../../codec/explanation'
 import type { Command } from '../commands/command'
 import type { FrameName } from '../frame/frames'
 import type { ProfileId, ProfileInfo } from '../profiles/profile'
-import type { Settings } from './body'
+import type { ExplainSettings } from './body'
 
 /** What is known of the frame; what is left out is found out as far as the bytes tell it. */
 export interface ExplainFrameOptions {
@@ -33,4 +33,4 @@ export interface ExplainFrameOptions {
 }
 
 /** Everything but the data code. */
-export type Known = Omit<Settings, 'code'>
+export type Known = Omit<ExplainSettings, 'code'>
