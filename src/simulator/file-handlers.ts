@@ -4,7 +4,7 @@ import { FORM_FILE_UTF16 } from '../melsec/file/codec'
 import { isShortName } from '../melsec/file/name'
 import type { fileCommandNames } from '../melsec/profiles/files'
 import type { DriveEntry } from './drive'
-import type { Files } from './files'
+import type { SimulatedFiles } from './files'
 import type { Handler } from './handler'
 
 type FileCommand = (typeof fileCommandNames)[number]
@@ -17,7 +17,7 @@ function hasLongNames(subcommand: number): boolean {
 }
 
 /** What Read Directory/File counts: with 0000 the names it can say, with 0040 `.` and `..` too, but not in the root. */
-function listed(files: Files, drive: number, path: string, subcommand: number): readonly DriveEntry[] {
+function listed(files: SimulatedFiles, drive: number, path: string, subcommand: number): readonly DriveEntry[] {
   const found = files.list(drive, path)
   if (!hasLongNames(subcommand)) return found.filter(({ name }) => isShortName(name))
   if (path === '' || path === '\\') return found

@@ -55,7 +55,7 @@ interface Place {
   readonly text: string
 }
 
-export class Files {
+export class SimulatedFiles {
   readonly #parts: FilesParts
   #open: readonly Opened[] = []
 

@@ -5,7 +5,7 @@ import type { Profile } from '../melsec/profiles/profile'
 import type { ExtendUnits, OwnBuffer } from './buffer-memory'
 import type { Cpu } from './cpu'
 import type { ErrorLog } from './error-log'
-import type { Files } from './files'
+import type { SimulatedFiles } from './files'
 import type { LabelTable } from './labels'
 import type { DeviceMemory } from './memory'
 import type { PortLock } from './port-lock'
@@ -31,7 +31,7 @@ export interface Call {
   readonly buffer: OwnBuffer
   readonly extendUnits: ExtendUnits
   readonly labels: LabelTable
-  readonly files: Files
+  readonly files: SimulatedFiles
   /** Model name, padded to 16 characters, and model code. */
   readonly model: { readonly model: string; readonly modelCode: number }
   readonly caller: Caller

@@ -7,7 +7,7 @@ import { ExtendUnits, OwnBuffer } from './buffer-memory'
 import { checkRequest, routeRefusal } from './check'
 import { Cpu, type StateChange } from './cpu'
 import { ErrorLog } from './error-log'
-import { Files, type FilesParts } from './files'
+import { type FilesParts, SimulatedFiles } from './files'
 import type { Call, Caller, Handler } from './handler'
 import { handlers } from './handlers'
 import { DeviceMemory } from './memory'
@@ -52,7 +52,7 @@ export class Plc {
   readonly memory: TypedMemory
   readonly cpu: Cpu
   readonly errors = new ErrorLog()
-  readonly files: Files
+  readonly files: SimulatedFiles
   readonly #otherStations: PlcParts['otherStations']
   readonly #devices: DeviceMemory
   readonly #call: Omit<Call, 'caller'>
@@ -74,7 +74,7 @@ export class Plc {
         parts.cleared(scope)
       },
     })
-    this.files = new Files({ ...parts, cpu: () => this.cpu.state })
+    this.files = new SimulatedFiles({ ...parts, cpu: () => this.cpu.state })
     const { profile, cpu, errors, files } = this
     const { labels, model, restart } = parts
     const buffer = new OwnBuffer(profile, parts.bufferMemory)

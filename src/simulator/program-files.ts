@@ -4,17 +4,17 @@ import type { FileTime } from '../melsec/file/time'
 import type { Profile } from '../melsec/profiles/profile'
 import { type DrivePath, pathOf } from './drive'
 import type { MountedDrive } from './drives'
-import type { Files, OpenFile } from './files'
+import type { OpenFile, SimulatedFiles } from './files'
 import type { ProgramFiles } from './program'
 
 /** Files by drive and name. */
 export class NamedFiles implements ProgramFiles {
   readonly #profile: Profile
   readonly #drives: ReadonlyMap<number, MountedDrive>
-  readonly #files: Files
+  readonly #files: SimulatedFiles
   readonly #now: () => FileTime
 
-  constructor(profile: Profile, drives: ReadonlyMap<number, MountedDrive>, files: Files, now: () => FileTime) {
+  constructor(profile: Profile, drives: ReadonlyMap<number, MountedDrive>, files: SimulatedFiles, now: () => FileTime) {
     this.#profile = profile
     this.#drives = drives
     this.#files = files
