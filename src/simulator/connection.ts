@@ -13,7 +13,7 @@ import type { ServerConnection } from '../transport/transport'
 import { type AnyHead, anyFrame } from './any-frame'
 import { routeRefusal } from './check'
 import type { FaultSubject, Faults } from './faults'
-import type { Call } from './handler'
+import type { HandlerCall } from './handler'
 import { unaskedHead } from './on-demand'
 import type { Answer, Plc } from './plc'
 import type { PortPassword } from './port-lock'
@@ -75,7 +75,7 @@ export class SimulatedConnection {
   readonly since: number
   readonly #shared: Shared
   readonly #peer: ServerConnection
-  readonly #call: Call
+  readonly #call: HandlerCall
   readonly #responder: Responder<AnyHead>
   readonly #sequence: Sequence<Work>
   readonly #held: HeldAnswers

@@ -4,7 +4,7 @@ import * as fs from 'node:fs'
 import { join } from 'node:path'
 import { RequestError } from '../errors'
 import type { FileTime } from '../melsec/file/time'
-import { type Drive, type DriveEntry, type DrivePath, isPlainName } from './drive'
+import { type DriveEntry, type DrivePath, type DriveStore, isPlainName } from './drive'
 import { fileClock, msOf } from './file-clock'
 
 /** Directories and files that are looked at to tell how much room is left. */
@@ -20,7 +20,7 @@ interface Found {
   readonly name: string
 }
 
-export class FolderDrive implements Drive {
+export class FolderDrive implements DriveStore {
   readonly #root: string
 
   /** @throws RequestError BAD_OPTION: there is no such folder. */

@@ -15,7 +15,7 @@ export interface DriveEntry {
 export type DrivePath = readonly string[]
 
 /** Where files are kept. Whoever calls has checked that what a method needs is there. */
-export interface Drive {
+export interface DriveStore {
   /** What a directory holds, in an order that stays; `undefined`: there is no such directory. */
   list(path: DrivePath): readonly DriveEntry[] | undefined
   find(path: DrivePath): DriveEntry | undefined
@@ -76,7 +76,7 @@ function entryOf({ name, children, data, modified, readOnly }: Node): DriveEntry
   return { name, directory: children !== undefined, size: data.length, modified, readOnly }
 }
 
-export class MemoryDrive implements Drive {
+export class MemoryDrive implements DriveStore {
   readonly #root: Node
 
   constructor(modified: FileTime) {

@@ -2,14 +2,14 @@
 import { badOption } from '../basics/option-checks'
 import { type FileTime, isFileTime } from '../melsec/file/time'
 import type { Profile } from '../melsec/profiles/profile'
-import { type Drive, type DrivePath, keyOf, MemoryDrive, pathOf } from './drive'
+import { type DrivePath, type DriveStore, keyOf, MemoryDrive, pathOf } from './drive'
 import { FolderDrive } from './drive-folder'
 import type { SimulatedDrive, SimulatedDrives, SimulatedFile } from './simulated-drive'
 import { usualFiles } from './usual-files'
 
 /** A drive as the file commands find it. */
 export interface MountedDrive {
-  readonly drive: Drive
+  readonly drive: DriveStore
   readonly capacity: number
   readonly writeProtected: boolean
   /** Passwords of files, by the key of their path. */

@@ -23,7 +23,7 @@ export interface Caller {
 }
 
 /** What a handler works on. */
-export interface Call {
+export interface HandlerCall {
   readonly profile: Profile
   readonly memory: DeviceMemory
   readonly cpu: Cpu
@@ -42,6 +42,6 @@ export interface Call {
 /** The response data to a request. Throws `Refusal` for an end code. */
 export type Handler<N extends CommandName> = (
   message: MessageOf<Commands[N]['request']>,
-  call: Call,
+  call: HandlerCall,
   subcommand: number,
 ) => MessageInput<Commands[N]['response']>

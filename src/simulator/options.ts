@@ -19,7 +19,7 @@ import { type Clock, realClock } from '../transport/clock'
 import { drivesOf, type MountedDrive } from './drives'
 import { fileClock } from './file-clock'
 import type { FilesParts } from './files'
-import type { Call } from './handler'
+import type { HandlerCall } from './handler'
 import { LabelTable, type SimulatedLabels } from './labels'
 import type { ExtensionMemory } from './memory'
 import type { SimulatedDrives } from './simulated-drive'
@@ -112,7 +112,7 @@ export interface SimulatorSettings {
   readonly host: string
   readonly tcp: PortOptions | false
   readonly udp: PortOptions | false
-  readonly model: Call['model']
+  readonly model: HandlerCall['model']
   readonly maxConnections: number
   readonly entryRelease: number
   readonly otherStations: 'refuse' | 'silence'
@@ -187,7 +187,7 @@ function framesOf(profile: Profile, code: DataCode, frames?: readonly FrameName[
   return frames === undefined ? possible : frames.map((frame) => oneOf('frames', frame, possible))
 }
 
-function modelFor({ model }: Profile, given: PlcSimulatorOptions['model']): Call['model'] {
+function modelFor({ model }: Profile, given: PlcSimulatorOptions['model']): HandlerCall['model'] {
   const code = given?.code ?? model.code
   const name = given?.name ?? modelOf(code)?.models[0] ?? model.name ?? ''
   if (!/^[\x20-\x7e]+$/.test(name) || name.length > MODEL_LENGTH) {

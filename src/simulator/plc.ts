@@ -8,7 +8,7 @@ import { checkRequest, routeRefusal } from './check'
 import { Cpu, type StateChange } from './cpu'
 import { ErrorLog } from './error-log'
 import { type FilesParts, SimulatedFiles } from './files'
-import type { Call, Caller, Handler } from './handler'
+import type { Caller, Handler, HandlerCall } from './handler'
 import { handlers } from './handlers'
 import { DeviceMemory } from './memory'
 import type { SimulatorSettings } from './options'
@@ -55,7 +55,7 @@ export class Plc {
   readonly files: SimulatedFiles
   readonly #otherStations: PlcParts['otherStations']
   readonly #devices: DeviceMemory
-  readonly #call: Omit<Call, 'caller'>
+  readonly #call: Omit<HandlerCall, 'caller'>
 
   constructor(parts: PlcParts) {
     this.#otherStations = parts.otherStations
@@ -84,12 +84,12 @@ export class Plc {
   }
 
   /** What the handlers get for requests of this caller. */
-  callOf(caller: Caller): Call {
+  callOf(caller: Caller): HandlerCall {
     return { ...this.#call, caller }
   }
 
   /** Carries a request out. */
-  answer(ports: Ports, received: Received, call: Call): Answer {
+  answer(ports: Ports, received: Received, call: HandlerCall): Answer {
     const { head } = received.frame
     try {
       if (head.frame === '1E') return this.#answer1e(received, call)
@@ -101,7 +101,7 @@ export class Plc {
     }
   }
 
-  #answer(protocol: SlmpCommandSet, route: Route, { request }: Received, call: Call): Answer {
+  #answer(protocol: SlmpCommandSet, route: Route, { request }: Received, call: HandlerCall): Answer {
     const wrongRoute = routeRefusal(this.profile, route)
     if (wrongRoute !== undefined) {
       if (this.#otherStations === 'silence') return { kind: 'none' }
@@ -116,7 +116,7 @@ export class Plc {
   }
 
   /** Limits and devices were checked where the request was read: 1E has its own. */
-  #answer1e({ request, respond }: Received, call: Call): Answer {
+  #answer1e({ request, respond }: Received, call: HandlerCall): Answer {
     // 1E cannot unlock: it works where another frame has unlocked the connection.
     call.caller.lock.enter(false)
     if (request instanceof Refusal) throw request
@@ -138,7 +138,7 @@ export class Plc {
     this.cpu.up()
   }
 
-  #carryOut(protocol: SlmpCommandSet, request: ReceivedRequest, call: Call): Answer {
+  #carryOut(protocol: SlmpCommandSet, request: ReceivedRequest, call: HandlerCall): Answer {
     const { command } = request
     const response = handle(request, call)
     if (command.answered === 'no') return { kind: 'none' }
@@ -153,11 +153,16 @@ export class Plc {
   }
 }
 
-function handle({ name, message, subcommand }: ReceivedRequest, call: Call) {
+function handle({ name, message, subcommand }: ReceivedRequest, call: HandlerCall) {
   return handleAs(name, message, call, subcommand)
 }
 
-function handleAs<N extends CommandName>(name: N, message: ReceivedRequest['message'], call: Call, subcommand: number) {
+function handleAs<N extends CommandName>(
+  name: N,
+  message: ReceivedRequest['message'],
+  call: HandlerCall,
+  subcommand: number,
+) {
   const handler: Handler<N> = handlers[name]
   // The message was decoded by this command's declaration, from which its type is inferred.
   return handler(message as Parameters<Handler<N>>[0], call, subcommand)
