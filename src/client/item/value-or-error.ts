@@ -1,5 +1,5 @@
 // What may fail with a PlcError, as a value: for lists in which one bad entry must not spoil the others.
-import { EndCodeError, PlcError, RequestError } from '../../errors'
+import { PlcError, RequestError } from '../../errors'
 import { about } from './about'
 
 /** The value, or the error that it turned out to be. */
@@ -20,13 +20,4 @@ export function isFine<T>(outcome: T | PlcError): outcome is T {
 export function attemptFor<T>(name: string, run: () => T): T | PlcError {
   const outcome = attempt(run)
   return outcome instanceof RequestError ? about(outcome, [{ item: name }]) : outcome
-}
-
-/**
- * Whether nothing behind a failed write may be sent, so that the order is kept: a flag must not be written when its data
- * was not. A refused or forbidden one says nothing about the next; of everything else nobody knows how far it came.
- */
-export function stopsOrder(error: PlcError): boolean {
-  const isRefused = error instanceof EndCodeError && error.outcome === 'refused'
-  return !isRefused && !(error instanceof RequestError)
 }

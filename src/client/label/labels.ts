@@ -6,8 +6,9 @@ import type { PlcError } from '../../errors'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { listOf, namesOf } from '../item/input-checks'
 import type { WriteValue } from '../item/item-value'
-import { byName, checkAllWritten, valueGiven } from '../item/many-items'
+import { asPlainValue, byName } from '../item/plain-values'
 import { attempt, isFine } from '../item/value-or-error'
+import { checkAllWritten } from '../item/write-outcome'
 import { askedLabel, checkLabelFormat, type LabelFormat, type LabelItem, type LabelOptions } from './item'
 import { type LabelValue, readLabels } from './read'
 import { type LabelCall, LabelRequests } from './request'
@@ -152,7 +153,7 @@ class LabelAccess implements Labels {
     // Before anything is sent, also the reading of the data types.
     this.#parts.permitWrite()
     const { requests, format } = this.#opened(options)
-    const asked = entries.map(([label, value]) => attempt(() => labelEntry(askedLabel(label), valueGiven(value))))
+    const asked = entries.map(([label, value]) => attempt(() => labelEntry(askedLabel(label), asPlainValue(value))))
     const writes = await labelWrites(asked, requests, format)
     const errors = await requests.write(writes.filter(isFine))
     return writes.map((write, at): LabelWriteResult => {

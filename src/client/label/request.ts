@@ -8,7 +8,7 @@ import type { LabelArea } from '../../melsec/label/codec'
 import { abbreviated, inRequests } from '../../melsec/label/label'
 import type { Profile } from '../../melsec/profiles/profile'
 import { about } from '../item/about'
-import { stopsOrder } from '../item/value-or-error'
+import { stopsOrder } from '../item/write-outcome'
 import type { AskedLabel } from './item'
 import type { LabelContent } from './value'
 

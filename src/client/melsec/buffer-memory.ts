@@ -4,7 +4,7 @@ import { commands } from '../../melsec/commands/commands'
 import { byteAddressOf, type ExtendUnit } from '../../melsec/extend-unit'
 import type { CallOptions } from '../connection/call'
 import type { NumberArray } from '../item/item-value'
-import { isTyped } from '../item/many-items'
+import { isTyped } from '../item/plain-values'
 import type { SendCommand } from './send-command'
 
 /** Words of a buffer memory, 0 to 65535 each. */

@@ -13,7 +13,8 @@ import { type CallOptions, callOptionsOf } from '../connection/call'
 import { isItem, listOf } from '../item/input-checks'
 import { type Item, type ParsedItem, parseItem } from '../item/item'
 import type { WriteEntry } from '../item/item-value'
-import { checkAllWritten, valueGiven } from '../item/many-items'
+import { asPlainValue } from '../item/plain-values'
+import { checkAllWritten } from '../item/write-outcome'
 import { refuseAmbiguousXy } from '../item/xy-notation'
 import { explainLabel, type ItemExplanation } from '../label/explain'
 import { type AnyItem, hasPrefix, isLabel, itemText, labelInstead, parsedLabel } from '../label/in-items'
@@ -102,7 +103,7 @@ export class ItemAccess {
     const parsed = listOf(entries, 'entries').map(
       (entry, index): MixedEntry => ({
         item: this.#listed(entry?.item, `entries[${index}].item`),
-        value: valueGiven(entry?.value),
+        value: asPlainValue(entry?.value),
       }),
     )
     const all = { ...options, ...this.#notation }

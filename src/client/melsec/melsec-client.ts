@@ -31,7 +31,8 @@ import type {
   WriteValue,
   WriteValues,
 } from '../item/item-value'
-import { byName, checkAllWritten, entriesOf, plainValue } from '../item/many-items'
+import { byName, entriesOf, plainValue } from '../item/plain-values'
+import { checkAllWritten } from '../item/write-outcome'
 import type { ItemExplanation } from '../label/explain'
 import { type Labels, labelsOf } from '../label/labels'
 import { type Monitor, Registration } from '../plan/monitor'

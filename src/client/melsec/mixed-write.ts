@@ -6,7 +6,8 @@
  */
 import { ClosedError, type PlcError } from '../../errors'
 import type { PlainValue } from '../item/item-value'
-import { attempt, isFine, stopsOrder } from '../item/value-or-error'
+import { attempt, isFine } from '../item/value-or-error'
+import { stopsOrder } from '../item/write-outcome'
 import { describeLabelTypes, describeLabelWrite } from '../label/describe'
 import { type AnyItem, isLabel, type LabelInItems } from '../label/in-items'
 import { type LabelRequests, type LabelWrite, notWritten } from '../label/request'
