@@ -20,6 +20,7 @@ import {
   TimeoutError,
 } from '../src/index'
 import { endpoint, objectIn, type Reply } from './admin'
+import { withoutCauses } from './causes'
 import type { PlcConnection } from './connection'
 import { type AnsweringLine, answeringLines } from './connection-find'
 import { optionsOf, resolverOf, settingsOf } from './connection-settings'
@@ -105,7 +106,7 @@ async function outcome(
     const further =
       strange && causes.length === 0 ? [texts('test.otherService', { port }), texts('test.otherLine')] : causes
     const ours = isUp(connection) && TURNED_AWAY.includes(code)
-    const message = withoutCauses(details, peer, texts)
+    const message = shortMessage(details, peer, texts)
     return {
       ok: false,
       ...details,
@@ -117,11 +118,8 @@ async function outcome(
 }
 
 /** With its causes a message is long, and they are listed below it. */
-function withoutCauses({ code, message, causes = [] }: FailureDetails, peer: string, texts: Texts): string {
-  if (code === 'SILENT' && causes.length > 0) return texts('test.silent', { peer })
-  const untold = causes.reduce((text, cause) => text.replace(` ${cause}`, ''), message)
-  const at = untold.search(/ (?:Likely|Most likely|Possible causes): /)
-  return causes.length > 0 && at > 0 ? untold.slice(0, at) : untold
+function shortMessage({ code, message, causes = [] }: FailureDetails, peer: string, texts: Texts): string {
+  return code === 'SILENT' && causes.length > 0 ? texts('test.silent', { peer }) : withoutCauses(message, causes, texts)
 }
 
 /** A connection that ended because of what came over it. */
@@ -156,7 +154,7 @@ async function found(
     return { ok: false, message: texts('test.foundNone', { peer }), causes }
   } catch (error) {
     const details = detailsOf(error, texts)
-    return { ok: false, message: withoutCauses(details, peer, texts), causes: details.causes ?? [] }
+    return { ok: false, message: shortMessage(details, peer, texts), causes: details.causes ?? [] }
   }
 }
 

@@ -141,7 +141,7 @@ export class PlcConnection {
       this.node.log(this.texts('log.connected', { peer: this.#peer() }))
     } else if (state.name === 'waiting' && state.error.code !== this.#complained) {
       this.#complained = state.error.code
-      this.node.warn(state.error.message)
+      this.node.warn(detailsOf(state.error, this.texts).message)
     }
   }
 

@@ -15,6 +15,7 @@ import {
   TimeoutError,
   UnfinishedError,
 } from '../src/index'
+import { causesIn, messageWith } from './causes'
 import { languageOf, type Texts } from './texts'
 
 /** Failures that only nodes know. */
@@ -128,7 +129,8 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
     return { ...specific(error.cause, texts), message: error.message }
   }
   if (error instanceof TimeoutError || error instanceof ConnectionError) {
-    return error.causes.length === 0 ? {} : { causes: error.causes }
+    if (error.causes.length === 0) return {}
+    return { message: messageWith(error.message, error.causes, texts), causes: causesIn(error.causes, texts) }
   }
   return {}
 }

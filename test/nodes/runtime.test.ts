@@ -39,6 +39,20 @@ describe('in Japanese', () => {
     await red.status('read', { text: '終了コード C056' })
     plc.faults.clear()
   })
+
+  test('likely causes, in the error, its message, the log and the connection test', async () => {
+    const japanese = /^[^a-z]*[\u3040-\u30ff]/
+    await red.deploy([connectionTo(plc, { port: '1' }), readNode(['D100']), catchNode()])
+    await red.status('read', { fill: 'red' })
+    const { cause, message } = await caught('read', {})
+    expect(cause.causes).toEqual([expect.stringMatching(japanese), expect.any(String), expect.any(String)])
+    expect(message).toContain((cause.causes as string[])[0])
+    expect(red.log.map(({ text }) => text)).toContainEqual(expect.stringContaining('オープン設定'))
+    const settings = { host: '127.0.0.1', port: '1', profile: 'iq-r' }
+    const tested = (await red.http('POST', 'melsec-jw/connection/test', { settings })).json() as Record<string, unknown>
+    expect(tested.causes).toEqual(cause.causes)
+    expect(tested.message).not.toMatch(/[\u3040-\u30ff]|Likely/)
+  })
 })
 
 describe('for a user who may only look', () => {
