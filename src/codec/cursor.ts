@@ -65,7 +65,7 @@ export interface ValueCodec<T> {
 
 /** Growing output buffer. One per encoder, never shared between encoders, empty again after `take()`. */
 export abstract class Output {
-  protected buffer: Buffer = Buffer.allocUnsafeSlow(256)
+  protected buffer: Buffer = Buffer.allocUnsafe(256)
   protected length = 0
   form = 0
 

@@ -22,63 +22,75 @@ export interface Scheduled {
 const IN_A_ROW = 8
 
 export class Scheduler<J extends Scheduled> {
-  readonly #queues = new Map(PRIORITIES.map((priority) => [priority, new Queue<J>()]))
-  /** How many of the priority went while a lower one waited. */
-  readonly #inARow = new Map<Priority, number>()
+  /** In the order of the priorities. */
+  readonly #lanes = PRIORITIES.map(() => ({ queue: new Queue<J>(), inARow: 0 }))
+  #size = 0
 
   get size(): number {
-    let size = 0
-    for (const queue of this.#queues.values()) size += queue.size
-    return size
+    return this.#size
   }
 
   add(job: J): void {
-    this.#queues.get(job.priority ?? 'read')?.add(job)
+    this.#queueOf(job)?.add(job)
+    this.#size += 1
   }
 
   /** The one whose turn it is. */
   peek(): J | undefined {
-    const priority = this.#next()
-    return priority && this.#queues.get(priority)?.first
+    return this.#lanes[this.#next()]?.queue.first
   }
 
   /** Takes the one that `peek` shows. */
   take(): J | undefined {
-    const priority = this.#next()
-    if (priority === undefined) return undefined
-    const job = this.#queues.get(priority)?.take()
-    const before = PRIORITIES.slice(0, PRIORITIES.indexOf(priority))
-    for (const higher of before) this.#inARow.set(higher, 0)
-    if (this.#lowerWaits(priority)) this.#inARow.set(priority, (this.#inARow.get(priority) ?? 0) + 1)
+    const rank = this.#next()
+    const lane = this.#lanes[rank]
+    if (lane === undefined) return undefined
+    const job = lane.queue.take()
+    this.#size -= 1
+    for (let higher = 0; higher < rank; higher++) {
+      const passed = this.#lanes[higher]
+      if (passed !== undefined) passed.inARow = 0
+    }
+    // `inARow` counts how many of the priority went while a lower one waited.
+    if (this.#lowerWaits(rank)) lane.inARow += 1
     return job
   }
 
   /** @returns whether it was waiting */
   remove(job: J): boolean {
-    return this.#queues.get(job.priority ?? 'read')?.remove(job) ?? false
+    const wasThere = this.#queueOf(job)?.remove(job) ?? false
+    if (wasThere) this.#size -= 1
+    return wasThere
   }
 
   *[Symbol.iterator](): Generator<J> {
-    for (const queue of this.#queues.values()) yield* queue
+    for (const { queue } of this.#lanes) yield* queue
   }
 
   /** Everything that waits, in the order of the priorities; nothing waits then. */
   clear(): J[] {
     const all = [...this]
-    for (const queue of this.#queues.values()) queue.clear()
+    for (const { queue } of this.#lanes) queue.clear()
+    this.#size = 0
     return all
   }
 
-  #next(): Priority | undefined {
-    return PRIORITIES.find((priority) => {
-      if ((this.#queues.get(priority)?.size ?? 0) === 0) return false
-      return (this.#inARow.get(priority) ?? 0) < IN_A_ROW || !this.#lowerWaits(priority)
-    })
+  #queueOf({ priority = 'read' }: J): Queue<J> | undefined {
+    return this.#lanes[PRIORITIES.indexOf(priority)]?.queue
   }
 
-  #lowerWaits(priority: Priority): boolean {
-    const lower = PRIORITIES.slice(PRIORITIES.indexOf(priority) + 1)
-    return lower.some((each) => (this.#queues.get(each)?.size ?? 0) > 0)
+  /** Rank of the priority whose turn it is; -1 when nothing waits. */
+  #next(): number {
+    if (this.#size === 0) return -1
+    return this.#lanes.findIndex(
+      ({ queue, inARow }, rank) => queue.size > 0 && (inARow < IN_A_ROW || !this.#lowerWaits(rank)),
+    )
+  }
+
+  #lowerWaits(rank: number): boolean {
+    let waiting = this.#size
+    for (let at = 0; at <= rank; at++) waiting -= this.#lanes[at]?.queue.size ?? 0
+    return waiting > 0
   }
 }
 

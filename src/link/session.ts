@@ -159,7 +159,8 @@ export class Session<J extends Job = Job> {
     let earliest: number | undefined
     if (this.#waiting.size > 0) earliest = this.#fence?.due
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
-    for (const job of this.#waiting) {
+    // Nothing waits between the requests of most programs.
+    for (const job of this.#waiting.size > 0 ? this.#waiting : []) {
       const sendBy = this.#sendBy(job)
       if (earliest === undefined || sendBy < earliest) earliest = sendBy
     }

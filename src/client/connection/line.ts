@@ -300,7 +300,7 @@ export class Line {
     } else if (this.#ended) return
     else if (isProbe) this.#goOn(error)
     else {
-      const locked = this.#opening.lockedBy(error, this.peer)
+      const locked = error === undefined ? undefined : this.#opening.lockedBy(error, this.peer)
       if (locked === undefined) this.#owner.proved()
       else this.#lost(locked)
     }

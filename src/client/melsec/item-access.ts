@@ -50,6 +50,8 @@ export class ItemAccess {
   readonly #parts: ItemParts
   readonly #lender: LabelLender
   readonly #prepared = new Map<string, ReadPlan>()
+  /** Of lists of one item, by its text. */
+  readonly #preparedAlone = new Map<string, ReadPlan>()
   /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
   #monitored = false
 
@@ -62,13 +64,18 @@ export class ItemAccess {
   /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
   prepare(items: readonly Item[]): Pick<ReadPlan, 'run'> {
     if (!items.every((item) => typeof item === 'string')) return this.plan(items)
+    const [only] = items
+    if (items.length === 1 && only !== undefined) return this.#kept(this.#preparedAlone, only, items)
     // Not joined: whatever stood between two texts could also stand in one.
-    const key = JSON.stringify(items)
-    const known = this.#prepared.get(key)
+    return this.#kept(this.#prepared, JSON.stringify(items), items)
+  }
+
+  #kept(plans: Map<string, ReadPlan>, key: string, items: readonly Item[]): ReadPlan {
+    const known = plans.get(key)
     if (known !== undefined) return known
     const plan = this.plan(items)
-    if (this.#prepared.size >= PREPARED_PLANS) this.#prepared.clear()
-    this.#prepared.set(key, plan)
+    if (plans.size >= PREPARED_PLANS) plans.clear()
+    plans.set(key, plan)
     return plan
   }
 
@@ -78,7 +85,7 @@ export class ItemAccess {
     const plan = planRead(mixed.devices, protocol, this.#planOptions)
     if (mixed.labels.length > 0) return mixedReadPlan(mixed, plan, this.#lender, call)
     return {
-      run: async (options) => plan.run(call(options).send, this.#lender.time),
+      run: async (options) => await plan.run(call(options).send, this.#lender.time),
       describe: () => plan.describe(),
       toString: () => plan.toString(),
     }

@@ -316,7 +316,7 @@ export class MelsecClient {
   #call(options: CallOptions | undefined): OpenCall {
     const { clock, timeout } = this.#settings
     const deadline = new Deadline(clock, callOptionsOf(options), timeout)
-    return this.#turns.open(deadline, async (exchange) => {
+    return this.#turns.open(deadline, (exchange) => {
       this.#permit(exchange.effect, exchange.title)
       return this.#connection.request(exchange, deadline.options(exchange.title))
     })

@@ -53,6 +53,11 @@ export class DeviceRead {
    */
   async run(send: SendExchange, now: () => number): Promise<ReadResult[]> {
     const run = new ReadRun(this.#texts, this.#shape, send, now)
+    const [only] = this.#shape.steps
+    if (only !== undefined && this.#shape.steps.length === 1) {
+      await this.#read(only, run)
+      return run.results()
+    }
     const queue = [...this.#shape.steps].reverse()
     const lane = async () => {
       for (let step = queue.pop(); step !== undefined; step = queue.pop()) await this.#read(step, run)
@@ -132,7 +137,7 @@ class ReadRun {
   readonly #now: () => number
   readonly #values: (PlcValue | PlcValue[] | undefined)[]
   /** Of arrays larger than one request. */
-  readonly #parts = new Map<number, Parts>()
+  #parts: Map<number, Parts> | undefined
   readonly #errors: (PlcError | undefined)[]
   readonly #timestamps: number[]
 
@@ -181,6 +186,7 @@ class ReadRun {
       this.#values[item] = value
       return
     }
+    this.#parts ??= new Map()
     const parts = this.#parts.get(item) ?? { values: [], sources: new Set() }
     this.#parts.set(item, parts)
     parts.values[part] = value
@@ -215,7 +221,7 @@ class ReadRun {
       if (error !== undefined) return { item, ok: false, error, timestamp }
       const value = this.#values[i]
       if (value === undefined) throw new Error(`${item} has neither a value nor an error`)
-      const isTorn = this.#parts.size > 0 && (this.#parts.get(i)?.sources.size ?? 0) > 1
+      const isTorn = (this.#parts?.get(i)?.sources.size ?? 0) > 1
       return isTorn ? { item, ok: true, value, timestamp, torn: true } : { item, ok: true, value, timestamp }
     })
   }

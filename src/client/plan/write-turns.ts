@@ -17,8 +17,16 @@ export class WriteTurns {
   #exclusive: Promise<unknown> | undefined
   readonly #shared = new Set<Promise<unknown>>()
 
-  /** A call whose writes take their turns. */
-  open(deadline: Deadline, request: SendExchange): OpenCall {
+  /** A call whose writes take their turns. What `refusable` throws is what the request rejects with. */
+  open(deadline: Deadline, refusable: SendExchange): OpenCall {
+    // Not async: each request would wait for three turns of the queue of promises more.
+    const request: SendExchange = (exchange) => {
+      try {
+        return refusable(exchange)
+      } catch (error) {
+        return Promise.reject(error)
+      }
+    }
     const send = <T>(exchange: Exchange<T>): Promise<T> =>
       exchange.effect === 'write' ? this.shared(deadline, exchange.title, () => request(exchange)) : request(exchange)
     return { deadline, send, alone: (use) => this.exclusive(deadline, 'Writing', () => use(request)) }

@@ -122,7 +122,7 @@ function routeSize(layout: Layout): number {
 interface Envelope {
   readonly used: number
   readonly serial: number | undefined
-  readonly route: Route
+  readonly head: SlmpHead
   readonly timerOrEndCode: number
   readonly body: Buffer
 }
@@ -130,17 +130,18 @@ interface Envelope {
 function scanRequest(layout: Layout, subheader: number, bytes: Buffer): Scanned<RequestFrame<SlmpHead>> | undefined {
   const found = scan(layout, subheader, bytes)
   if (found === undefined) return undefined
-  const { used, serial, route, timerOrEndCode, body } = found
-  return { used, frame: { head: { ...route, timer: timerOrEndCode }, serial, body } }
+  const { used, serial, head, timerOrEndCode, body } = found
+  return { used, frame: { head: { ...head, timer: timerOrEndCode }, serial, body } }
 }
 
 function scanResponse(layout: Layout, subheader: number, bytes: Buffer): Scanned<ResponseFrame<SlmpHead>> | undefined {
   const found = scan(layout, subheader, bytes)
   if (found === undefined) return undefined
-  const { used, serial, route, timerOrEndCode, body } = found
-  return { used, frame: { head: { ...route, timer: 0 }, serial, endCode: timerOrEndCode, body } }
+  const { used, serial, head, timerOrEndCode, body } = found
+  return { used, frame: { head, serial, endCode: timerOrEndCode, body } }
 }
 
+/** The head has no timer: what stands in its place is `timerOrEndCode`. */
 function scan(layout: Layout, subheader: number, bytes: Buffer): Envelope | undefined {
   const { ascii } = layout
   const unit = ascii ? 2 : 1
@@ -153,16 +154,17 @@ function scan(layout: Layout, subheader: number, bytes: Buffer): Envelope | unde
   const used = head + length
   if (bytes.length < used) return undefined
   const routeAt = head - routeSize(layout)
-  const route = {
+  const found = {
     network: uintAt(bytes, routeAt, 1, ascii),
     station: uintAt(bytes, routeAt + unit, 1, ascii),
     moduleIo: uintAt(bytes, routeAt + 2 * unit, 2, ascii),
     multidrop: uintAt(bytes, routeAt + 4 * unit, 1, ascii),
+    timer: 0,
   }
   return {
     used,
     serial: layout.serial ? uintAt(bytes, 2 * unit, 2, ascii) : undefined,
-    route: layout.extension ? { ...route, extensionStation: extensionAt(bytes, routeAt + 5) } : route,
+    head: layout.extension ? { ...found, extensionStation: extensionAt(bytes, routeAt + 5) } : found,
     timerOrEndCode: uintAt(bytes, head, 2, ascii),
     body: bytes.subarray(head + 2 * unit, used),
   }
