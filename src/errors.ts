@@ -334,8 +334,18 @@ export class UnfinishedError extends BaseError {
 
 /** What became of one item of a write. `error.outcome` says whether the PLC may have been changed. */
 export type WriteResult =
-  | { readonly item: string; readonly ok: true }
-  | { readonly item: string; readonly ok: false; readonly error: PlcError }
+  | {
+      /** The item as it was given. */
+      readonly item: string
+      /** Whether it was written. */
+      readonly ok: true
+    }
+  | {
+      readonly item: string
+      readonly ok: false
+      /** Why not. */
+      readonly error: PlcError
+    }
 
 /**
  * A write of several items of which one or more were not written. `results` say what became of each, in their order;

@@ -58,7 +58,10 @@ export interface ConnectionInfo {
 }
 
 /** A write that was carried out. */
-export type WriteEvent = RequestEvent & { readonly command: CommandName }
+export type WriteEvent = RequestEvent & {
+  /** Name of the command. */
+  readonly command: CommandName
+}
 
 /** What a simulated PLC tells those who listen. */
 export interface SimulatorEvents {

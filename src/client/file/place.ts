@@ -9,7 +9,14 @@ import type { Drive, Profile } from '../../melsec/profiles/profile'
  * A file or directory of the PLC: the number of its drive and the path from the root. Both separators are taken.
  * @example '4:\\LOG\\LINE.CSV', '4:/LOG/LINE.CSV', { drive: 4, path: 'LOG/LINE.CSV' }
  */
-export type FilePath = string | { readonly drive: number; readonly path: string }
+export type FilePath =
+  | string
+  | {
+      /** Number of the drive, as file commands name it. */
+      readonly drive: number
+      /** From the root, e.g. `LOG/LINE.CSV`. */
+      readonly path: string
+    }
 
 /** A path that is understood. */
 export interface FilePlace {

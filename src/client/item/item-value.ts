@@ -42,16 +42,26 @@ type BigIntArray = BigInt64Array | BigUint64Array
 /** What became of one item. `timestamp`: when the answer with its (last) value arrived, or the failure was known. */
 export type ReadResult<V = ReadValue> =
   | {
+      /** The item as it was given. */
       readonly item: string
+      /** Whether there is a value. */
       readonly ok: true
+      /** One value, or an array where the item has a count or a range. */
       readonly value: V
+      /** Milliseconds since 1970. */
       readonly timestamp: number
       /** The array was read by more than one request: its values may be of different moments. */
       readonly torn?: true
       /** Of a label: its data type, as the PLC says it, e.g. `REAL`. */
       readonly type?: string
     }
-  | { readonly item: string; readonly ok: false; readonly error: PlcError; readonly timestamp: number }
+  | {
+      readonly item: string
+      readonly ok: false
+      /** Why there is no value. */
+      readonly error: PlcError
+      readonly timestamp: number
+    }
 
 /** A value for a single item, an array for an item with a count or a range. */
 export type PlainValue = PlcValue | readonly PlcValue[]

@@ -20,8 +20,11 @@ export type { LabelValue } from './read'
 /** What became of one label of a read. */
 export type LabelReadResult =
   | {
+      /** The label as it was given. */
       readonly label: string
+      /** Whether there is a value. */
       readonly ok: true
+      /** One value, or an array where the label has a count. */
       readonly value: LabelValue
       /** Data type of the label, as the PLC says it: `REAL`, `STRING(21)`. */
       readonly type: string
@@ -30,12 +33,28 @@ export type LabelReadResult =
       /** The elements were read by more than one request: the PLC may have changed them in between. */
       readonly torn?: true
     }
-  | { readonly label: string; readonly ok: false; readonly error: PlcError; readonly timestamp: number }
+  | {
+      readonly label: string
+      readonly ok: false
+      /** Why there is no value. */
+      readonly error: PlcError
+      readonly timestamp: number
+    }
 
 /** What became of one label of a write. */
 export type LabelWriteResult =
-  | { readonly label: string; readonly ok: true }
-  | { readonly label: string; readonly ok: false; readonly error: PlcError }
+  | {
+      /** The label as it was given. */
+      readonly label: string
+      /** Whether it was written. */
+      readonly ok: true
+    }
+  | {
+      readonly label: string
+      readonly ok: false
+      /** Why not; `error.outcome` says whether the PLC may have been changed. */
+      readonly error: PlcError
+    }
 
 /**
  * Global labels of an iQ-R CPU, by name. They must be open to external devices in GX Works3 ("Access from External

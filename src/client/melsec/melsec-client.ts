@@ -176,10 +176,12 @@ export class MelsecClient {
     return this.#settings.profile
   }
 
+  /** Data code in use: that of the options, else the profile's. */
   get code(): DataCode {
     return this.#settings.code
   }
 
+  /** How the connection is now; the event `state` tells each change. */
   get state(): ConnectionState {
     return this.#connection.state
   }

@@ -207,9 +207,22 @@ export interface DeviceInfo extends DeviceRow {
 
 /** A network (`J1\W10`), the buffer memory of a module (`U3\G100`) or of CPU No. 1 to 4 (`U3E0\HG0`). */
 export type DeviceExtension =
-  | { readonly kind: 'link'; readonly network: number }
-  | { readonly kind: 'module'; readonly unit: number }
-  | { readonly kind: 'cpu'; readonly cpu: 1 | 2 | 3 | 4 }
+  | {
+      /** Which of the three it is. */
+      readonly kind: 'link'
+      /** Number of the network, 1 to 239; 0 too where an index register is added. */
+      readonly network: number
+    }
+  | {
+      readonly kind: 'module'
+      /** Start I/O number of the module divided by 16: 3 is 0030H. */
+      readonly unit: number
+    }
+  | {
+      readonly kind: 'cpu'
+      /** Number of the CPU in a multiple CPU system. */
+      readonly cpu: 1 | 2 | 3 | 4
+    }
 
 /**
  * One device, or the head device of several. `number` is the value: X1F and octal X37 are both 31.
