@@ -116,6 +116,24 @@ function resolved(from: string, specifier: string): string {
   return existsSync(join(root, `${target}.ts`)) ? `${target}.ts` : `${target}/index.ts`
 }
 
+/** Rooms with doors: what others may import of them. */
+const DOORS: Readonly<Record<string, readonly string[]>> = {
+  codec: ['src/codec/codec.ts', 'src/codec/explanation.ts'],
+  link: ['src/link/link.ts'],
+}
+
+/** Imports that go round the door of another room; the entries of the package name what is public, wherever it is. */
+function roundTheDoor(file: SourceFile): string[] {
+  if (['index', 'entry'].includes(file.room)) return []
+  return file.imports.flatMap(({ specifier }) => {
+    if (!specifier.startsWith('.')) return []
+    const target = resolved(file.path, specifier)
+    const room = roomOf(target)
+    const doors = room === file.room ? undefined : DOORS[room]
+    return doors === undefined || doors.includes(target) ? [] : [`${file.path} goes round ${doors.join(' and ')}`]
+  })
+}
+
 /** The import rules this file breaks, as sentences. */
 function brokenImports(file: SourceFile): string[] {
   const allowed = [file.room, ...(ROOMS[file.room] ?? [])]
@@ -211,6 +229,10 @@ describe('the sources', () => {
     expect(asking.map(({ path }) => path)).toEqual([])
   })
 
+  test('come into codec and link by their doors', () => {
+    expect(sources.flatMap(roundTheDoor)).toEqual([])
+  })
+
   test('leave timers, the clock and the process to src/transport and the command line', () => {
     expect(sources.flatMap(brokenNames)).toEqual([])
   })
@@ -278,6 +300,13 @@ describe('the rules themselves catch', () => {
     expect(brokenNames(readSource('src/client/plan/made-up.ts', '/* setTimeout */ const text = "Date.now"'))).toEqual(
       [],
     )
+  })
+
+  test('a way round a door', () => {
+    const found = (text: string, path = 'src/melsec/made-up.ts') => roundTheDoor(readSource(path, text))
+    expect(found(`import { u16 } from '../codec/field'`)).toHaveLength(1)
+    expect(found(`import { encode } from '../codec/codec'`)).toEqual([])
+    expect(found(`import { u16 } from './field'`, 'src/codec/made-up.ts')).toEqual([])
   })
 
   test('a family told by its id', () => {

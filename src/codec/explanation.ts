@@ -3,6 +3,16 @@ import { type AnnotatedRow, type AnnotateOptions, annotate, type FrameFault, MAS
 import type { DataCode } from './data-code'
 import type { Message, Shape } from './field'
 
+export {
+  type AnnotatedRow,
+  type Annotation,
+  annotate,
+  type FrameFault,
+  type Leaf,
+  plainText,
+  showBytes,
+} from './annotate'
+
 /** Which way a frame goes: to the PLC or from it. */
 export type Direction = 'request' | 'response'
 

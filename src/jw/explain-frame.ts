@@ -1,9 +1,18 @@
 // A Sharp JW message in words, field by field.
 
 import { hex } from '../basics/hex'
-import { type AnnotatedRow, annotate, type Leaf, plainText, showBytes } from '../codec/annotate'
 import { field, type Message, type Shape } from '../codec/codec'
-import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../codec/explanation'
+import {
+  type AnnotatedRow,
+  annotate,
+  type Direction,
+  Explainer,
+  type FrameExplanation,
+  type Leaf,
+  notAFrame,
+  plainText,
+  showBytes,
+} from '../codec/explanation'
 import type { NamedCommand } from '../link/link'
 import { jwCommands } from './commands'
 import { type JwAddress, jwAddress } from './operand'

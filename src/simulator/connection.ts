@@ -1,7 +1,6 @@
 // One client of the simulated PLC: its requests in order, and its answers through the fault switches onto the wire.
 
-import { withoutSecrets } from '../codec/annotate'
-import type { Effect, Message } from '../codec/codec'
+import { type Effect, type Message, withoutSecrets } from '../codec/codec'
 import { type Framing, Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'

@@ -2,7 +2,7 @@
 
 import { isPlainObject } from '../../basics/option-checks'
 import { shown } from '../../basics/show'
-import { effects } from '../../codec/declaration'
+import { effects } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { Command } from '../../melsec/commands/command'
 import { FORM_BITS } from '../../melsec/device/form'

@@ -3,7 +3,7 @@
  * (`X ` = 5820H), and the number as 4 bytes. Unlike 3E, ASCII code writes decimal devices in hexadecimal too.
  * The manual lists more codes (L, F, B, W, ...) that the FX5 does not let through 1E; they are not here.
  */
-import type { ValueCodec } from '../../codec/cursor'
+import type { ValueCodec } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import { checkAddress } from '../device/access'
 import { FORM_XY_OCTAL, readDigits, writeDigits } from '../device/codec'

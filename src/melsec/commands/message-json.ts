@@ -12,8 +12,7 @@
  * | list                                 | array of objects                                                          |
  * | any other value                      | as it is                                                                  |
  */
-import { encode, type Field, hasSecret, namesOf, type Shape, takesOf, writerOf } from '../../codec/codec'
-import { isVisible } from '../../codec/field'
+import { encode, type Field, hasSecret, isVisible, namesOf, type Shape, takesOf, writerOf } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import { aCompatibleDevice } from '../a-compatible/device'
 import { deviceAddress, FORM_EXTENDED, FORM_LONG } from '../device/codec'

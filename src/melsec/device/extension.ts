@@ -3,8 +3,9 @@
  * (network, module, CPU), index registers and `@` (SLMP reference manual appendix 1).
  * Their meaning is checked by the caller; here are only the bytes.
  */
+
 import { hex } from '../../basics/hex'
-import type { Reader, Writer } from '../../codec/cursor'
+import type { Reader, Writer } from '../../codec/codec'
 import { CPU_UNIT, type DeviceAddress, type DeviceExtension } from './device'
 
 type Extension = Pick<DeviceAddress, 'extension' | 'extensionIndex'>

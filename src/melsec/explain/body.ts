@@ -1,9 +1,8 @@
 // What stands behind the head of a 3E, 4E or 4C frame, in words: the same in all of them.
 
 import { hex } from '../../basics/hex'
-import { type AnnotatedRow, type Annotation, annotate, hasSecret, type Leaf } from '../../codec/annotate'
-import type { Context, DataCode, Message, Shape } from '../../codec/codec'
-import type { Explainer } from '../../codec/explanation'
+import { type Context, type DataCode, hasSecret, type Message, type Shape } from '../../codec/codec'
+import { type AnnotatedRow, type Annotation, annotate, type Explainer, type Leaf } from '../../codec/explanation'
 import type { Command } from '../commands/command'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from '../device/codec'
 import { type DeviceName, deviceInfo } from '../device/device'

@@ -1,7 +1,6 @@
 // A 1E frame in words. It has no length and no serial number: where an answer ends, only its request tells.
-import { annotate, type Leaf } from '../../codec/annotate'
 import { type DataCode, type Declaration, field, type Message, type Named, type Shape } from '../../codec/codec'
-import { type Direction, Explainer, type FrameExplanation } from '../../codec/explanation'
+import { annotate, type Direction, Explainer, type FrameExplanation, type Leaf } from '../../codec/explanation'
 import { aCompatibleCommands } from '../a-compatible/commands'
 import { aCompatibleDevice } from '../a-compatible/device'
 import { addressesOf } from '../a-compatible/protocol'

@@ -1,9 +1,15 @@
 // A 4C frame in format 5 in words: the same data as in 3E, in an envelope of control codes with doubled DLEs.
 
 import { hex } from '../../basics/hex'
-import { type AnnotatedRow, type FrameFault, showBytes } from '../../codec/annotate'
 import { field, type Shape, sumOf } from '../../codec/codec'
-import { type Direction, Explainer, type FrameExplanation } from '../../codec/explanation'
+import {
+  type AnnotatedRow,
+  type Direction,
+  Explainer,
+  type FrameExplanation,
+  type FrameFault,
+  showBytes,
+} from '../../codec/explanation'
 import { frame4cFormat5 } from '../frame/frame-4c'
 import {
   type ExplainSettings,

@@ -23,8 +23,13 @@ import { explain4c } from './frame-4c'
 import { describeHead, endCodeText } from './head'
 import type { ExplainFrameOptions, Known } from './options'
 
-export type { AnnotatedRow, FrameFault } from '../../codec/annotate'
-export { type Direction, type FrameExplanation, formatExplanation } from '../../codec/explanation'
+export {
+  type AnnotatedRow,
+  type Direction,
+  type FrameExplanation,
+  type FrameFault,
+  formatExplanation,
+} from '../../codec/explanation'
 
 /**
  * Explains a frame, also a broken one: then up to where it is wrong. Never throws for what is in the bytes.

@@ -1,8 +1,8 @@
 // Words for what stands around the data of a command: route, timer, end code, command and subcommand.
 
 import { hex } from '../../basics/hex'
-import type { Leaf } from '../../codec/annotate'
 import type { Declaration } from '../../codec/codec'
+import type { Leaf } from '../../codec/explanation'
 import type { DeviceForm } from '../device/device-form'
 import { readSubcommand } from '../device/form'
 import { explained, type MelsecEndCodeFamily } from '../end-codes/end-code'

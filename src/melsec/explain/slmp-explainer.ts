@@ -1,6 +1,5 @@
 // SLMP frames for a trace.
-import { hasSecret } from '../../codec/annotate'
-import { type DataCode, readerOf } from '../../codec/codec'
+import { type DataCode, hasSecret, readerOf } from '../../codec/codec'
 import { PlcError } from '../../errors'
 import type { FrameExplainer, ReceivedFrame, SentFrame } from '../../link/link'
 import type { Command } from '../commands/command'

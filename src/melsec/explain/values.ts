@@ -1,8 +1,8 @@
 // Values in words: device addresses as GX Works writes them, and which device each value of a message belongs to.
 
 import { hex } from '../../basics/hex'
-import { type AnnotatedRow, type Leaf, showBytes } from '../../codec/annotate'
 import type { Context, DataCode, Declaration, Field, Message, Shape } from '../../codec/codec'
+import { type AnnotatedRow, type Leaf, showBytes } from '../../codec/explanation'
 import { aCompatibleDevice } from '../a-compatible/device'
 import { commands } from '../commands/commands'
 import { type AddressOptions, formatDevice } from '../device/address'
