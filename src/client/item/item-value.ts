@@ -14,7 +14,9 @@ export type ReadValue = PlcValue | PlcValue[]
 export type ItemValue<I> = I extends Item ? ValueRead<FactsOf<I>> : ReadValue
 
 type ValueRead<F extends ItemFacts> = [F['type']] extends [never]
-  ? Counted<F['count'], PlcValue>
+  ? F['count'] extends 'unknown'
+    ? ReadValue
+    : Counted<F['count'], PlcValue>
   : Counted<F['count'], TypeToValue[F['type']]>
 
 type Counted<N extends ItemFacts['count'], V> = N extends 'one' | 'element' ? V : N extends 'many' ? V[] : V | V[]
@@ -26,7 +28,9 @@ type Counted<N extends ItemFacts['count'], V> = N extends 'one' | 'element' ? V 
 export type ItemInput<I> = I extends Item ? ValueWritten<FactsOf<I>> : WriteValue
 
 type ValueWritten<F extends ItemFacts> = [F['type']] extends [never]
-  ? CountedInput<F['count'], PlcValue>
+  ? F['count'] extends 'unknown' | 'element'
+    ? WriteValue
+    : CountedInput<F['count'], PlcValue>
   : CountedInput<F['count'], TypeToWritten[F['type']]>
 
 type CountedInput<N extends ItemFacts['count'], V> = N extends 'one'
