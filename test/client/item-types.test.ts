@@ -487,6 +487,12 @@ test('a value of another type does not compile, and is refused', async () => {
   expect(list).toMatchObject([{ ok: false, error: refused }])
   // @ts-expect-error a REAL is a number
   await expect(client.write([{ item: { address: 'D5', type: 'REAL' }, value: 'x' }])).rejects.toThrow('finite number')
+  // @ts-expect-error a value is missing
+  await expect(client.write([{ item: 'M10' }])).rejects.toThrow('true or false')
+  // @ts-expect-error nothing is no value
+  await expect(client.write([{ item: 'M10', value: undefined }])).rejects.toThrow('true or false')
+  // @ts-expect-error nothing is no value
+  await expect(client.write({ M10: undefined })).rejects.toThrow('true or false')
   // @ts-expect-error an array takes as many values
   const plan = client.planWrite([{ item: 'D5[2]', value: 7 }])
   await expect(plan.run()).rejects.toThrow('D5[2]')

@@ -265,13 +265,13 @@ export class MelsecClient {
   }
 
   /**
-   * Reads one item, or many in few requests.
-   * One item: its value; throws what went wrong. Many: a result for each, as `readEach`. An object with a text `address`
-   * is one item; to `readEach` and `readValues` it is many, of which one is named address.
+   * Reads one item: its value. An object with a text `address` is one item; to `readEach` and `readValues` it is many, of
+   * which one is named address.
+   * @throws PlcError what went wrong
    * @example await plc.read('D100:REAL')
-   * @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' })
    */
   read<const I extends Item>(item: I, options?: CallOptions): Promise<ItemValue<I>>
+  /** Reads many items as `readEach`. @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' }) */
   read<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
   async read(items: Item | Items, options?: CallOptions): Promise<unknown> {
     if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
@@ -279,9 +279,7 @@ export class MelsecClient {
     return this.readEach(items, options)
   }
 
-  /**
-   * Reads many items in few requests, with a result for each: one that cannot be read does not hide the others.
-   */
+  /** Reads many items in few requests, with a result for each: one that cannot be read does not hide the others. */
   readEach<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
   async readEach(items: Items, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return this.#items.prepare(items).run(options)
@@ -329,17 +327,16 @@ export class MelsecClient {
     return this.#items.explain(item)
   }
 
-  /**
-   * Writes many items as `writeValues`, or one. Needs `allowWrites`. When it resolves, everything was written. A write
-   * whose outcome is unknown is never repeated.
-   * @throws WriteError of many, when anything was not written
-   * @example await plc.write('D200:REAL', 71.5)
-   * @example await plc.write({ 'D200:REAL': 71.5, M10: true })
-   */
+  /** Writes many items as `writeValues`. @example await plc.write({ 'D200:REAL': 71.5, M10: true }) */
   write<const L extends readonly Item[], A extends string>(
     values: WriteEntries<L> | ItemInputs<A>,
     options?: WriteCallOptions,
   ): Promise<void>
+  /**
+   * Writes one item. Needs `allowWrites`. When it resolves, it was written. A write of unknown outcome is never repeated.
+   * @throws PlcError what went wrong
+   * @example await plc.write('D200:REAL', 71.5)
+   */
   write<const I extends Item>(item: I, value: ItemInput<I>, options?: WriteCallOptions): Promise<void>
   async write(
     target: Item | WriteValues,
@@ -352,7 +349,8 @@ export class MelsecClient {
   }
 
   /**
-   * Writes many items, in their order. Needs `allowWrites`. When it resolves, everything was written.
+   * Writes many items, in their order. Needs `allowWrites`. When it resolves, everything was written. A write whose outcome
+   * is unknown is never repeated.
    * @throws WriteError when anything was not written: its `results` say what became of each item
    * @example await plc.writeValues({ 'D200:REAL': 71.5, M10: true })
    */
