@@ -209,6 +209,36 @@ function firstParameter({ typeParams }: SyntaxNode): string | undefined {
   return isNode(first) ? textOf(first.typeName) : undefined
 }
 
+/** What only tests use, on purpose: the ground that carries more, and a table that they hold against the manuals. */
+const FOR_TESTS: readonly string[] = ['jwProtocol', 'endCodeTables']
+
+/** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */
+function unusedExports(files: readonly { readonly path: string; readonly tree: SyntaxNode }[]): string[] {
+  const uses = new Map<string, number>()
+  const exported: { readonly path: string; readonly name: string }[] = []
+  for (const { path, tree } of files) {
+    for (const node of nodesOf(tree)) {
+      if (node.type === 'Identifier') count(uses, textOf(node) ?? '')
+      if (node.type === 'ExportDeclaration')
+        for (const name of namesDeclared(node.declaration)) exported.push({ path, name })
+    }
+  }
+  return exported.flatMap(({ path, name }) => ((uses.get(name) ?? 0) > 1 ? [] : [`${path} exports ${name} for nobody`]))
+}
+
+function count(uses: Map<string, number>, name: string): void {
+  uses.set(name, (uses.get(name) ?? 0) + 1)
+}
+
+/** Of functions, classes and constants; types cost nothing. */
+function namesDeclared(declaration: unknown): string[] {
+  if (!isNode(declaration)) return []
+  const { type, identifier, declarations } = declaration
+  if (type === 'FunctionDeclaration' || type === 'ClassDeclaration') return [textOf(identifier) ?? '']
+  if (type !== 'VariableDeclaration' || !Array.isArray(declarations)) return []
+  return declarations.flatMap((one: unknown) => (isNode(one) ? [textOf(one.id) ?? ''] : []))
+}
+
 const sources = [...filesBelow('src', '.ts'), ...filesBelow('nodes', '.ts')].map((path) => readSource(path))
 
 describe('the sources', () => {
@@ -231,6 +261,11 @@ describe('the sources', () => {
 
   test('come into codec and link by their doors', () => {
     expect(sources.flatMap(roundTheDoor)).toEqual([])
+  })
+
+  test('export no value that nobody uses', () => {
+    const unused = unusedExports(sources.map(({ path }) => ({ path, tree: parseTypeScript(readText(path)) })))
+    expect(unused.filter((found) => !FOR_TESTS.some((name) => found.includes(` ${name} `)))).toEqual([])
   })
 
   test('leave timers, the clock and the process to src/transport and the command line', () => {
@@ -300,6 +335,16 @@ describe('the rules themselves catch', () => {
     expect(brokenNames(readSource('src/client/plan/made-up.ts', '/* setTimeout */ const text = "Date.now"'))).toEqual(
       [],
     )
+  })
+
+  test('a value that nobody uses', () => {
+    const of = (...texts: string[]) =>
+      unusedExports(texts.map((text, i) => ({ path: `src/codec/made-up-${i}.ts`, tree: parseTypeScript(text) })))
+    expect(of('export function dead(): void {}')).toHaveLength(1)
+    expect(of('export class Dead {}', 'export const dead = 1, alive = 2; alive')).toHaveLength(2)
+    expect(of('export function alive(): void {}', `import { alive } from './made-up-0'; alive()`)).toEqual([])
+    expect(of('export const own = 1; export const other = own')).toHaveLength(1)
+    expect(of('export interface Shape { readonly a: number }')).toEqual([])
   })
 
   test('a way round a door', () => {
