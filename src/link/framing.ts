@@ -1,5 +1,6 @@
 // What a frame is to the session and the responder: no protocol, no I/O.
 import type { PlcError } from '../errors'
+import type { RoundTrips } from './round-trips'
 import type { Scheduled } from './scheduler'
 
 /**
@@ -89,6 +90,8 @@ export interface Question {
 
 /** A request on its way: what the session needs to know about it. */
 export interface Job extends Question, Scheduled {
+  /** Of the PLC it goes to, where several share a session; default: the session's. */
+  readonly roundTrips?: RoundTrips | undefined
   /** Absolute time, on the clock the session is given, after which nobody waits any more. */
   readonly deadline: number
   /** ms it was given in all, waiting included: once sent it may use at least a share of it (`SHARE` in session.ts). */

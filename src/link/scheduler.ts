@@ -1,5 +1,5 @@
-// Whose request goes next: control and writes before reads before polls, callers in turn, and nobody starves.
-// Time is an argument; nothing here knows what a request says.
+// Whose request goes next: control and writes before reads before polls, PLCs and callers in turn, nothing before its
+// time, and nobody starves. Time is an argument; nothing here knows what a request says.
 
 /** What goes before what, the first one first. */
 export const PRIORITIES = ['control', 'read', 'poll'] as const
@@ -11,20 +11,26 @@ export type Priority = (typeof PRIORITIES)[number]
 export interface Scheduled {
   /** Default `read`. */
   readonly priority?: Priority
+  /** Which PLC it is for, where several share a line: they take turns. */
+  readonly plc?: unknown
   /**
-   * Who asks: requests of one caller wait for one another, and callers take turns. Without it a request is a caller of
-   * its own.
+   * Who asks: requests of one caller to one PLC wait for one another, and callers take turns. Without it a request is a
+   * caller of its own.
    */
   readonly caller?: unknown
+  /** It does not go before this time: a pause that the line or the PLC needs. What is ready goes ahead of it. */
+  readonly notBefore?: number
 }
 
 /** So many of a higher priority may go in a row while others wait; then one of those goes. */
 const IN_A_ROW = 8
 
 export class Scheduler<J extends Scheduled> {
-  /** In the order of the priorities. */
+  /** In the order of the priorities. `inARow`: how many of the priority went while a lower one waited. */
   readonly #lanes = PRIORITIES.map(() => ({ queue: new Queue<J>(), inARow: 0 }))
   #size = 0
+  /** How many of them have a time before which they do not go. */
+  #timed = 0
 
   get size(): number {
     return this.#size
@@ -32,34 +38,43 @@ export class Scheduler<J extends Scheduled> {
 
   add(job: J): void {
     this.#queueOf(job)?.add(job)
-    this.#size += 1
+    this.#count(job, 1)
   }
 
-  /** The one whose turn it is. */
-  peek(): J | undefined {
-    return this.#lanes[this.#next()]?.queue.first
+  /** The one whose turn it is; `undefined` when none may go yet. */
+  peek(now: number): J | undefined {
+    return this.#lanes[this.#next(now)]?.queue.first(now)
   }
 
   /** Takes the one that `peek` shows. */
-  take(): J | undefined {
-    const rank = this.#next()
+  take(now: number): J | undefined {
+    const rank = this.#next(now)
     const lane = this.#lanes[rank]
-    if (lane === undefined) return undefined
-    const job = lane.queue.take()
-    this.#size -= 1
+    const job = lane?.queue.take(now)
+    if (lane === undefined || job === undefined) return undefined
+    this.#count(job, -1)
     for (let higher = 0; higher < rank; higher++) {
       const passed = this.#lanes[higher]
       if (passed !== undefined) passed.inARow = 0
     }
-    // `inARow` counts how many of the priority went while a lower one waited.
-    if (this.#lowerWaits(rank)) lane.inARow += 1
+    if (this.#lowerWaits(rank, now)) lane.inARow += 1
     return job
+  }
+
+  /** When the first of those may go that may not yet; `undefined` when there is none. */
+  due(now: number): number | undefined {
+    if (this.#timed === 0) return undefined
+    let due: number | undefined
+    for (const { notBefore } of this) {
+      if (notBefore !== undefined && notBefore > now && (due === undefined || notBefore < due)) due = notBefore
+    }
+    return due
   }
 
   /** @returns whether it was waiting */
   remove(job: J): boolean {
     const wasThere = this.#queueOf(job)?.remove(job) ?? false
-    if (wasThere) this.#size -= 1
+    if (wasThere) this.#count(job, -1)
     return wasThere
   }
 
@@ -72,79 +87,182 @@ export class Scheduler<J extends Scheduled> {
     const all = [...this]
     for (const { queue } of this.#lanes) queue.clear()
     this.#size = 0
+    this.#timed = 0
     return all
+  }
+
+  #count({ notBefore }: J, by: 1 | -1): void {
+    this.#size += by
+    if (notBefore !== undefined) this.#timed += by
   }
 
   #queueOf({ priority = 'read' }: J): Queue<J> | undefined {
     return this.#lanes[PRIORITIES.indexOf(priority)]?.queue
   }
 
-  /** Rank of the priority whose turn it is; -1 when nothing waits. */
-  #next(): number {
+  /** Rank of the priority whose turn it is; -1 when nothing may go. */
+  #next(now: number): number {
     if (this.#size === 0) return -1
     return this.#lanes.findIndex(
-      ({ queue, inARow }, rank) => queue.size > 0 && (inARow < IN_A_ROW || !this.#lowerWaits(rank)),
+      ({ queue, inARow }, rank) => this.#waits(queue, now) && (inARow < IN_A_ROW || !this.#lowerWaits(rank, now)),
     )
   }
 
-  #lowerWaits(rank: number): boolean {
-    let waiting = this.#size
-    for (let at = 0; at <= rank; at++) waiting -= this.#lanes[at]?.queue.size ?? 0
-    return waiting > 0
+  /** Whether anything in it may go. */
+  #waits(queue: Queue<J>, now: number): boolean {
+    return queue.size > 0 && (this.#timed === 0 || queue.first(now) !== undefined)
+  }
+
+  #lowerWaits(rank: number, now: number): boolean {
+    for (let at = rank + 1; at < this.#lanes.length; at++) {
+      const lane = this.#lanes[at]
+      if (lane !== undefined && this.#waits(lane.queue, now)) return true
+    }
+    return false
   }
 }
 
-/** Callers in turn: who was served goes to the end of the row, however much it has asked for. */
+/** A line of those who wait in turn: who was served goes to its end, however much they have asked for. */
+interface Waiting<J> {
+  readonly size: number
+  /** The first one that may go. */
+  first(now: number): J | undefined
+  take(now: number): J | undefined
+  add(job: J): void
+  remove(job: J): boolean
+  [Symbol.iterator](): Iterator<J>
+}
+
+/** PLCs in turn, and the callers of each. */
 class Queue<J extends Scheduled> {
-  /** By callers, in the order of their turns; a request without a caller is one of its own. */
-  readonly #row = new Map<unknown, J[]>()
+  #row = this.#plcs()
+
+  #plcs(): InTurn<J> {
+    return new InTurn<J>(plcOf, () => new InTurn<J>(callerOf, () => new InOrder<J>()))
+  }
+
+  get size(): number {
+    return this.#row.size
+  }
+
+  first(now: number): J | undefined {
+    return this.#row.first(now)
+  }
+
+  take(now: number): J | undefined {
+    return this.#row.take(now)
+  }
+
+  add(job: J): void {
+    this.#row.add(job)
+  }
+
+  remove(job: J): boolean {
+    return this.#row.remove(job)
+  }
+
+  clear(): void {
+    this.#row = this.#plcs()
+  }
+
+  [Symbol.iterator](): Iterator<J> {
+    return this.#row[Symbol.iterator]()
+  }
+}
+
+class InTurn<J extends Scheduled> implements Waiting<J> {
+  /** In the order of their turns. */
+  readonly #row = new Map<unknown, Waiting<J>>()
+  readonly #nameOf: (job: J) => unknown
+  readonly #make: () => Waiting<J>
   #size = 0
+
+  constructor(nameOf: (job: J) => unknown, make: () => Waiting<J>) {
+    this.#nameOf = nameOf
+    this.#make = make
+  }
 
   get size(): number {
     return this.#size
   }
 
-  get first(): J | undefined {
-    for (const jobs of this.#row.values()) return jobs[0]
+  first(now: number): J | undefined {
+    for (const waiting of this.#row.values()) {
+      const job = waiting.first(now)
+      if (job !== undefined) return job
+    }
     return undefined
   }
 
-  add(job: J): void {
-    const jobs = this.#row.get(callerOf(job))
-    if (jobs === undefined) this.#row.set(callerOf(job), [job])
-    else jobs.push(job)
-    this.#size += 1
-  }
-
-  take(): J | undefined {
-    for (const [caller, jobs] of this.#row) {
-      const job = jobs.shift()
-      this.#row.delete(caller)
-      if (jobs.length > 0) this.#row.set(caller, jobs)
+  take(now: number): J | undefined {
+    for (const [name, waiting] of this.#row) {
+      const job = waiting.take(now)
+      if (job === undefined) continue
+      this.#row.delete(name)
+      if (waiting.size > 0) this.#row.set(name, waiting)
       this.#size -= 1
       return job
     }
     return undefined
   }
 
+  add(job: J): void {
+    const name = this.#nameOf(job)
+    const waiting = this.#row.get(name) ?? this.#make()
+    waiting.add(job)
+    this.#row.set(name, waiting)
+    this.#size += 1
+  }
+
   remove(job: J): boolean {
-    const jobs = this.#row.get(callerOf(job)) ?? []
-    const at = jobs.indexOf(job)
-    if (at < 0) return false
-    jobs.splice(at, 1)
-    if (jobs.length === 0) this.#row.delete(callerOf(job))
+    const name = this.#nameOf(job)
+    const waiting = this.#row.get(name)
+    if (waiting?.remove(job) !== true) return false
+    if (waiting.size === 0) this.#row.delete(name)
     this.#size -= 1
     return true
   }
 
-  clear(): void {
-    this.#row.clear()
-    this.#size = 0
+  *[Symbol.iterator](): Generator<J> {
+    for (const waiting of this.#row.values()) yield* waiting
+  }
+}
+
+/** Of one caller: one after another, also when the first of them may not go yet. */
+class InOrder<J extends Scheduled> implements Waiting<J> {
+  readonly #jobs: J[] = []
+
+  get size(): number {
+    return this.#jobs.length
   }
 
-  *[Symbol.iterator](): Generator<J> {
-    for (const jobs of this.#row.values()) yield* jobs
+  first(now: number): J | undefined {
+    const [job] = this.#jobs
+    return job === undefined || (job.notBefore ?? now) > now ? undefined : job
   }
+
+  take(now: number): J | undefined {
+    return this.first(now) === undefined ? undefined : this.#jobs.shift()
+  }
+
+  add(job: J): void {
+    this.#jobs.push(job)
+  }
+
+  remove(job: J): boolean {
+    const at = this.#jobs.indexOf(job)
+    if (at < 0) return false
+    this.#jobs.splice(at, 1)
+    return true
+  }
+
+  [Symbol.iterator](): Iterator<J> {
+    return this.#jobs[Symbol.iterator]()
+  }
+}
+
+function plcOf(job: Scheduled): unknown {
+  return job.plc
 }
 
 function callerOf(job: Scheduled): unknown {

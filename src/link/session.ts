@@ -28,13 +28,27 @@ export interface SessionOptions {
   readonly roundTrips?: RoundTrips
 }
 
-interface Outgoing {
+/** Bytes to send. On datagram links one buffer is one datagram. */
+export interface Sent<J> {
   readonly bytes: Buffer
+  /** Whose request it is; `undefined`: the session's own question. */
+  readonly job: J | undefined
+}
+
+/** A job that was taken back. */
+export interface Released<J> {
+  readonly job: J
+  readonly sent: boolean
+}
+
+interface Outgoing<J> {
+  readonly bytes: Buffer
+  readonly job: J | undefined
   /** Handed out by `transmit()`. Until then the PLC cannot have seen it. */
   sent: boolean
 }
 
-interface Pending<J> extends Outgoing {
+interface Pending<J> extends Outgoing<J> {
   readonly job: J
   readonly serial: number
   readonly sentAt: number
@@ -62,7 +76,7 @@ export class Session<J extends Job = Job> {
   readonly #fence: Fence | undefined
   #pending: Pending<J>[] = []
   readonly #waiting = new Scheduler<J>()
-  #output: Outgoing[] = []
+  #output: Outgoing<J>[] = []
   #events: SessionEvent<J>[] = []
   #received: Buffer = EMPTY
   /** Stream: what may still follow the last answer. */
@@ -105,6 +119,13 @@ export class Session<J extends Job = Job> {
     return this.#received.length
   }
 
+  /** As `inFlight` and `queued`, of the jobs that belong. */
+  counts(belongs: (job: J) => boolean): { readonly inFlight: number; readonly queued: number } {
+    let queued = 0
+    for (const job of this.#waiting) if (belongs(job)) queued += 1
+    return { inFlight: this.#pending.filter(({ job }) => belongs(job)).length, queued }
+  }
+
   submit(job: J, now: number): void {
     this.#waiting.add(job)
     this.#fill(now)
@@ -123,6 +144,16 @@ export class Session<J extends Job = Job> {
     return pending.sent
   }
 
+  /** Takes back the jobs that belong: gives them up, and tells of them here instead of in events. */
+  release(belongs: (job: J) => boolean, now: number): readonly Released<J>[] {
+    const waiting = [...this.#waiting].filter(belongs)
+    for (const job of waiting) this.#waiting.remove(job)
+    const pending = this.#pending.filter(({ job }) => belongs(job))
+    if (pending.length > 0) this.#giveUp(pending, 'a request in flight was abandoned')
+    this.#fill(now)
+    return [...waiting.map((job) => ({ job, sent: false })), ...pending.map(({ job, sent }) => ({ job, sent }))]
+  }
+
   receive(chunk: Buffer, now: number): void {
     if (this.#dropped) return
     if (this.#options.kind === 'datagram') this.#receiveDatagram(chunk, now)
@@ -130,7 +161,7 @@ export class Session<J extends Job = Job> {
     this.#fill(now)
   }
 
-  /** Ends what is overdue. Call it when `nextTimeout()` is reached. */
+  /** Ends what is overdue. Call it when `nextTimeout` is reached. */
   timeout(now: number): void {
     for (const job of [...this.#waiting].filter((entry) => this.#sendBy(entry) <= now)) this.#tooLate(job)
     const late = this.#pending.filter((entry) => entry.job.deadline <= now)
@@ -155,9 +186,10 @@ export class Session<J extends Job = Job> {
   }
 
   /** When something is due, or `undefined` when nothing waits. */
-  nextTimeout(): number | undefined {
+  nextTimeout(now: number): number | undefined {
     let earliest: number | undefined
     if (this.#waiting.size > 0) earliest = this.#fence?.due
+    if (this.#pending.length < this.#options.window) earliest = earlier(earliest, this.#waiting.due(now))
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
     // Nothing waits between the requests of most programs.
     for (const job of this.#waiting.size > 0 ? this.#waiting : []) {
@@ -167,12 +199,16 @@ export class Session<J extends Job = Job> {
     return earliest
   }
 
-  /** The next bytes to send, or `undefined`. On datagram links one buffer is one datagram. */
+  /** The next bytes to send, or `undefined`. */
   transmit(): Buffer | undefined {
+    return this.next()?.bytes
+  }
+
+  /** The next bytes to send, with whose they are. */
+  next(): Sent<J> | undefined {
     const next = this.#output.shift()
-    if (next === undefined) return undefined
-    next.sent = true
-    return next.bytes
+    if (next !== undefined) next.sent = true
+    return next
   }
 
   /** The next event, or `undefined`. */
@@ -182,14 +218,14 @@ export class Session<J extends Job = Job> {
 
   #fill(now: number): void {
     while (!this.#dropped && this.#pending.length < this.#options.window) {
-      const job = this.#waiting.peek()
+      const job = this.#waiting.peek(now)
       if (job === undefined) return
       if (this.#sendBy(job) <= now) {
         this.#tooLate(job)
         continue
       }
       if (!this.#mayLeave(job, now)) return
-      this.#waiting.take()
+      this.#waiting.take(now)
       this.#fence?.sent()
       const serial = this.#serials.take((used) => this.#pending.some((entry) => entry.serial === used))
       const entry = {
@@ -205,9 +241,9 @@ export class Session<J extends Job = Job> {
   }
 
   /** After this it is not sent any more. */
-  #sendBy({ deadline, allowance }: J): number {
+  #sendBy({ deadline, allowance, roundTrips = this.#roundTrips }: J): number {
     if (allowance === undefined) return deadline
-    const needed = Math.max(allowance * SHARE, this.#roundTrips.long)
+    const needed = Math.max(allowance * SHARE, roundTrips.long)
     return deadline - Math.min(needed, allowance * LARGEST_SHARE)
   }
 
@@ -218,10 +254,10 @@ export class Session<J extends Job = Job> {
     this.#finish(job, this.#whyUnsent(job, waiting), undefined)
   }
 
-  #whyUnsent({ deadline, allowance, needsNoProof }: J, waiting: number): Outcome {
+  #whyUnsent({ deadline, allowance, needsNoProof, roundTrips = this.#roundTrips }: J, waiting: number): Outcome {
     // While it waited the peer answered others, only not soon enough; otherwise it is silent.
     const isAlive = allowance !== undefined && this.#answeredAt >= deadline - allowance
-    if (isAlive) return { kind: 'tooLate', waiting, roundTrip: this.#roundTrips.usual }
+    if (isAlive) return { kind: 'tooLate', waiting, roundTrip: roundTrips.usual }
     if (this.#fence?.due !== undefined && needsNoProof !== true) return { kind: 'unproved' }
     return { kind: 'timedOut', sent: false }
   }
@@ -231,7 +267,7 @@ export class Session<J extends Job = Job> {
     const fence = this.#fence
     if (fence === undefined || job.needsNoProof === true || fence.allows(now)) return true
     const bytes = fence.ask(now)
-    if (bytes !== undefined) this.#output.push({ bytes, sent: false })
+    if (bytes !== undefined) this.#output.push({ bytes, job: undefined, sent: false })
     return false
   }
 
@@ -348,7 +384,8 @@ export class Session<J extends Job = Job> {
       throw new ProtocolError('ECHO_MISMATCH', `The answer is not the request's: ${mismatch}.`)
     this.#pending.splice(at, 1)
     // The first requests on a connection meet a peer that is still waking up.
-    if (found.job.allowance !== undefined) this.#roundTrips.add(now - found.sentAt)
+    const { allowance, roundTrips = this.#roundTrips } = found.job
+    if (allowance !== undefined) roundTrips.add(now - found.sentAt)
     this.#answeredAt = now
     this.#fence?.answered()
     this.#finish(found.job, { kind: 'answered', frame }, found.sentAt)
@@ -410,6 +447,10 @@ export class Session<J extends Job = Job> {
   #finish(job: J, outcome: Outcome, sentAt: number | undefined): void {
     this.#events.push({ kind: 'done', job, outcome, sentAt })
   }
+}
+
+function earlier(a: number | undefined, b: number | undefined): number | undefined {
+  return a === undefined || (b !== undefined && b < a) ? b : a
 }
 
 /** Whether the datagram holds what was found and nothing behind it but what may follow. */

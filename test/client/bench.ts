@@ -1,6 +1,9 @@
 /** A connection to a scripted PLC in memory, with a clock made of numbers: nothing happens unless the test says so. */
+
 import { Connection, type ConnectionOptions, type ConnectionState } from '../../src/client/connection/connection'
+import { Line, type LineOptions } from '../../src/client/connection/line'
 import type { PlcError } from '../../src/errors'
+import type { RequestFrame } from '../../src/link/link'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { listenMemory } from '../../src/transport/memory'
 import type { OpenTransport, Transport } from '../../src/transport/transport'
@@ -9,11 +12,17 @@ import { exchanges, type Frame, ScriptedPlc } from './scripted-plc'
 
 export type Kind = 'stream' | 'datagram'
 
-export interface BenchOptions extends Partial<ConnectionOptions> {
+export interface BenchOptions extends Partial<ConnectionOptions>, Partial<LineOptions> {
   readonly kind?: Kind
   readonly frame?: Frame
   /** As with a local port that the user fixed: it cannot be renewed. */
   readonly fixedPort?: boolean
+}
+
+export interface Station {
+  readonly ask: ReturnType<typeof exchanges>
+  readonly connection: Connection
+  readonly states: readonly ConnectionState[]
 }
 
 export const CAUSES = ['the data code differs', 'the port is another service']
@@ -23,6 +32,9 @@ export class Bench {
   readonly framing
   readonly plc: ScriptedPlc
   readonly memory
+  readonly line: Line
+  readonly frame: Frame
+  readonly settings: ConnectionOptions
   readonly connection: Connection
   readonly ask
   readonly states: ConnectionState[] = []
@@ -36,11 +48,12 @@ export class Bench {
     this.plc = new ScriptedPlc(frame, kind)
     this.memory = listenMemory({ kind, delivery: 'manual' }, this.plc.accept)
     this.ask = exchanges(frame)
-    this.connection = new Connection({
+    const settings = {
       framing: this.framing,
       openTransport: this.#openTransport(fixedPort),
       clock: this.clock,
       supervisor: { first: 500, longest: 30_000, settleGap: 50, random: () => 0 },
+      random: () => 0,
       inFlight: 1,
       queueLimit: 256,
       connectTimeout: 5000,
@@ -48,10 +61,27 @@ export class Bench {
       probes: [{ name: 'Read Type Name (0101)', exchange: this.ask.probe }],
       proof: this.ask.proof,
       explainSilence: () => CAUSES,
-      onState: (state) => this.states.push(state),
-      onUnsolicited: ({ body }) => this.unsolicited.push(String(body)),
+      onState: (state: ConnectionState) => this.states.push(state),
+      onUnsolicited: ({ body }: RequestFrame) => this.unsolicited.push(String(body)),
+      ...options,
+    }
+    this.frame = frame
+    this.settings = settings
+    this.line = new Line(settings)
+    this.connection = new Connection(this.line, settings)
+  }
+
+  /** Another PLC on the same line: a station behind the connected one. */
+  station(station: number, options: Partial<ConnectionOptions> = {}): Station {
+    const ask = exchanges(this.frame, { network: 1, station, moduleIo: 0x3ff, multidrop: 0 })
+    const states: ConnectionState[] = []
+    const connection = new Connection(this.line, {
+      ...this.settings,
+      probes: [{ name: 'Read Type Name (0101)', exchange: ask.probe }],
+      onState: (state) => states.push(state),
       ...options,
     })
+    return { ask, connection, states }
   }
 
   #openTransport(fixedPort: boolean): OpenTransport {

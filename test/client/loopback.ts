@@ -1,5 +1,7 @@
 /** A connection to a scripted PLC over real sockets of this computer. */
-import { Connection, type ConnectionState } from '../../src/client/connection/connection'
+
+import { Connection, type ConnectionState, type Silence } from '../../src/client/connection/connection'
+import { Line } from '../../src/client/connection/line'
 import { explainSilence } from '../../src/client/melsec/diagnosis'
 import { ownStation } from '../../src/melsec/frame/route'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
@@ -55,7 +57,7 @@ export class Loopback {
     const { port } = this.listener
     const endpoint = { host: '127.0.0.1', port }
     const settings = { transport, port, frame, code: 'binary', route: ownStation } as const
-    return new Connection({
+    const options = {
       framing,
       openTransport: transport === 'tcp' ? tcpTransport(endpoint) : udpTransport(endpoint),
       clock: realClock,
@@ -66,10 +68,12 @@ export class Loopback {
       timeout,
       probes: [{ name: 'Read Type Name (0101)', exchange: this.ask.probe }],
       proof: this.ask.proof,
-      explainSilence: (silence) => explainSilence(settings, silence),
-      onState: (state) => this.#told(state),
+      explainSilence: (silence: Silence) => explainSilence(settings, silence),
+      onState: (state: ConnectionState) => this.#told(state),
       onUnsolicited: () => {},
-    })
+      random: Math.random,
+    }
+    return new Connection(new Line(options), options)
   }
 
   readonly read = (number: number, options: { timeout?: number } = {}) =>

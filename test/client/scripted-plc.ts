@@ -7,7 +7,7 @@ import { proofs } from '../../src/client/melsec/control'
 import type { RequestFrame } from '../../src/link/link'
 import { Responder } from '../../src/link/link'
 import { commands } from '../../src/melsec/commands/commands'
-import { ownStation } from '../../src/melsec/frame/route'
+import { ownStation, type Route } from '../../src/melsec/frame/route'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
@@ -35,8 +35,12 @@ export type Script = (asked: Asked) => void
 export const replying: Script = (asked) => asked.reply()
 export const silent: Script = () => {}
 
-export function protocolOf(frame: Frame, code: 'binary' | 'ascii' = 'binary'): MelsecProtocol<SlmpHead> {
-  const head = { ...ownStation, timer: 0 }
+export function protocolOf(
+  frame: Frame,
+  code: 'binary' | 'ascii' = 'binary',
+  route = ownStation,
+): MelsecProtocol<SlmpHead> {
+  const head = { ...route, timer: 0 }
   return new MelsecProtocol({ framing: slmpFraming(frame, code), head, profile: resolveProfile('iq-r'), code })
 }
 
@@ -124,9 +128,9 @@ export class ScriptedPlc {
 
 const protocols = { '3E': protocolOf('3E'), '4E': protocolOf('4E'), ext: protocolOf('ext') }
 
-/** Requests ready to be sent. */
-export function exchanges(frame: Frame) {
-  const protocol = protocols[frame]
+/** Requests ready to be sent. `route`: to another station than the connected one. */
+export function exchanges(frame: Frame, route?: Route) {
+  const protocol = route === undefined ? protocols[frame] : protocolOf(frame, 'binary', route)
   const head = (number: number) => ({ device: 'D', number }) as const
   return {
     probe: () => protocol.exchange(commands.readTypeName, {}),

@@ -57,7 +57,7 @@ export class Line<H extends Head> {
       this.sent.push(bytes)
       for (const chunk of this.#chunks(this.damageRequest(bytes))) this.#toPlc(chunk)
     }
-    this.#now = this.#session.nextTimeout() ?? this.#now + 1
+    this.#now = this.#session.nextTimeout(this.#now) ?? this.#now + 1
     this.#session.timeout(this.#now)
     return this.#outcome(exchange, job)
   }

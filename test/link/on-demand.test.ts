@@ -47,7 +47,7 @@ describe.each(onDemandFrames)('On-demand in a $frame frame in $code code', ({ fr
   test('does not put off the deadline of a request, and is told when the connection ends', () => {
     const { session } = asked(1)
     session.receive(bytes, 999)
-    expect(session.nextTimeout()).toBe(1000)
+    expect(session.nextTimeout(0)).toBe(1000)
     session.disconnected()
     expect(told(session)).toEqual([unasked, 'A disconnected sent', 'B disconnected unsent'])
   })

@@ -5,6 +5,8 @@ interface Job {
   readonly name: string
   readonly priority?: Priority
   readonly caller?: unknown
+  readonly plc?: unknown
+  readonly notBefore?: number
 }
 
 function schedule(...jobs: Job[]): Scheduler<Job> {
@@ -15,7 +17,7 @@ function schedule(...jobs: Job[]): Scheduler<Job> {
 
 function order(scheduler: Scheduler<Job>): string {
   const names: string[] = []
-  for (let job = scheduler.take(); job !== undefined; job = scheduler.take()) names.push(job.name)
+  for (let job = scheduler.take(0); job !== undefined; job = scheduler.take(0)) names.push(job.name)
   return names.join(' ')
 }
 
@@ -44,7 +46,7 @@ describe('the order', () => {
 
   test('what went alone does not count: only a row that others wait behind', () => {
     const scheduler = schedule(...numbered('w', 20, { priority: 'control' }))
-    for (let i = 0; i < 12; i++) scheduler.take()
+    for (let i = 0; i < 12; i++) scheduler.take(0)
     scheduler.add({ name: 'R' })
     expect(order(scheduler)).toBe('w13 w14 w15 w16 w17 w18 w19 w20 R')
   })
@@ -65,10 +67,10 @@ describe('the order', () => {
 
   test('a caller that comes later does not wait for what another one has piled up', () => {
     const scheduler = schedule(...numbered('a', 60, { caller: 'a' }))
-    for (let i = 0; i < 10; i++) scheduler.take()
+    for (let i = 0; i < 10; i++) scheduler.take(0)
     scheduler.add({ name: 'new', caller: 'b' })
     scheduler.add({ name: 'nobody' })
-    expect([scheduler.take(), scheduler.take(), scheduler.take()].map((job) => job?.name)).toEqual([
+    expect([scheduler.take(0), scheduler.take(0), scheduler.take(0)].map((job) => job?.name)).toEqual([
       'a11',
       'new',
       'nobody',
@@ -77,7 +79,7 @@ describe('the order', () => {
 
   test('a caller that was away gets no more than its turn for that', () => {
     const scheduler = schedule(...numbered('a', 1, { caller: 'a' }), ...numbered('b', 50, { caller: 'b' }))
-    for (let i = 0; i < 41; i++) scheduler.take()
+    for (let i = 0; i < 41; i++) scheduler.take(0)
     for (const job of numbered('c', 3, { caller: 'a' })) scheduler.add(job)
     expect(order(scheduler).split(' ').slice(0, 6).join(' ')).toBe('b41 c1 b42 c2 b43 c3')
   })
@@ -89,7 +91,7 @@ describe('the order', () => {
     for (let round = 0; round < 70; round++) {
       for (let i = 0; i < 7; i++) scheduler.add({ name: `n${i}`, caller: i })
       for (let i = 0; i < 5; i++) {
-        const { name } = scheduler.take() ?? { name: '' }
+        const { name } = scheduler.take(0) ?? { name: '' }
         served.set(name, (served.get(name) ?? 0) + 1)
       }
     }
@@ -101,11 +103,11 @@ describe('the rest', () => {
   test('peek shows what take gives, and changes nothing', () => {
     const scheduler = schedule({ name: 'R' }, ...numbered('w', 12, { priority: 'control' }))
     while (scheduler.size > 0) {
-      const shown = scheduler.peek()
-      expect(scheduler.peek()).toBe(shown)
-      expect(scheduler.take()).toBe(shown)
+      const shown = scheduler.peek(0)
+      expect(scheduler.peek(0)).toBe(shown)
+      expect(scheduler.take(0)).toBe(shown)
     }
-    expect([scheduler.peek(), scheduler.take()]).toEqual([undefined, undefined])
+    expect([scheduler.peek(0), scheduler.take(0)]).toEqual([undefined, undefined])
   })
 
   test('a caller keeps its turn when what it asked for first is given up', () => {
@@ -122,5 +124,44 @@ describe('the rest', () => {
     expect([...scheduler].map(({ name }) => name)).toEqual(['r1', 'r3'])
     expect(scheduler.clear().map(({ name }) => name)).toEqual(['r1', 'r3'])
     expect(scheduler.size).toBe(0)
+  })
+})
+
+describe('PLCs that share a line', () => {
+  test('take turns, and within each of them its callers', () => {
+    const jobs = [
+      ...numbered('a', 3, { plc: 1, caller: 'a' }),
+      ...numbered('b', 2, { plc: 1, caller: 'b' }),
+      ...numbered('c', 2, { plc: 2 }),
+    ]
+    expect(order(schedule(...jobs))).toBe('a1 c1 b1 c2 a2 b2 a3')
+  })
+})
+
+describe('what may not go yet', () => {
+  test('waits, and what is ready goes ahead, whatever its priority', () => {
+    const scheduler = schedule(
+      { name: 'W', priority: 'control', notBefore: 10 },
+      { name: 'r' },
+      { name: 'p', priority: 'poll' },
+    )
+    expect([scheduler.peek(0)?.name, scheduler.due(0)]).toEqual(['r', 10])
+    expect(order(scheduler)).toBe('r p')
+    expect([scheduler.size, scheduler.take(9)?.name, scheduler.take(10)?.name]).toEqual([1, undefined, 'W'])
+    expect(scheduler.due(10)).toBeUndefined()
+  })
+
+  test('holds back what the same caller asked behind it, so that the order stays', () => {
+    const scheduler = schedule({ name: 'a1', caller: 'a', notBefore: 10 }, { name: 'a2', caller: 'a' }, { name: 'b' })
+    expect(order(scheduler)).toBe('b')
+    expect([scheduler.take(10)?.name, scheduler.take(10)?.name]).toEqual(['a1', 'a2'])
+  })
+
+  test('does not count as one that a row goes ahead of', () => {
+    const scheduler = schedule({ name: 'r', notBefore: 100 }, ...numbered('w', 12, { priority: 'control' }))
+    for (let i = 0; i < 10; i++) scheduler.take(0)
+    scheduler.add({ name: 'r2' })
+    // Ten went, but nobody was kept waiting by them.
+    expect(scheduler.take(0)?.name).toBe('w11')
   })
 })

@@ -1,6 +1,6 @@
 import { checkNames, type OptionNames } from '../../basics/option-checks'
 import { ClosedError, type PlcError, RequestError } from '../../errors'
-import type { BodyLength, Exchange, Head, Job, Priority, ResponseFrame } from '../../link/link'
+import type { BodyLength, Exchange, Head, Job, Priority, ResponseFrame, RoundTrips } from '../../link/link'
 import { abortedBeforeSending, asPlcError } from './failure'
 
 /** What every call may say. */
@@ -103,6 +103,8 @@ export class Call implements Job {
   /** ms it was given in all. */
   readonly allowance?: number
   readonly caller: unknown
+  #plc: object | undefined
+  #roundTrips: RoundTrips | undefined
 
   constructor(
     readonly exchange: Exchange<unknown>,
@@ -115,6 +117,21 @@ export class Call implements Job {
     this.onlyOn = onlyOn
     if (allowance !== undefined) this.allowance = allowance
     this.caller = caller
+  }
+
+  /** It goes over a line: for this PLC, whose answers take so long. */
+  over(plc: object, roundTrips: RoundTrips): void {
+    this.#plc = plc
+    this.#roundTrips = roundTrips
+  }
+
+  /** Whose it is on the line. */
+  get plc(): object | undefined {
+    return this.#plc
+  }
+
+  get roundTrips(): RoundTrips | undefined {
+    return this.#roundTrips
   }
 
   /** What changes the PLC does not wait behind what only asks. */

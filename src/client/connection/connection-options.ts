@@ -1,8 +1,7 @@
 // What a connection is told and what it tells.
 import type { EndCodeError } from '../../errors'
-import type { AnswerFraming, Echo, Exchange, RequestFrame } from '../../link/link'
+import type { Exchange, RequestFrame } from '../../link/link'
 import type { Clock } from '../../transport/clock'
-import type { OpenTransport } from '../../transport/transport'
 import type { Phase, SupervisorOptions } from './supervisor'
 
 /** A frame as it went over the wire. */
@@ -51,12 +50,10 @@ export interface Unlocking {
   readonly isLocked: (error: EndCodeError) => boolean
 }
 
+/** Of the connection to one PLC; what carries its bytes is the line's. */
 export interface ConnectionOptions {
-  readonly framing: AnswerFraming
-  readonly openTransport: OpenTransport
   readonly clock: Clock
   readonly supervisor: SupervisorOptions
-  readonly inFlight: number
   readonly queueLimit: number
   /** ms */
   readonly connectTimeout: number
@@ -69,11 +66,6 @@ export interface ConnectionOptions {
    * connection. None: the first request of the program proves the connection.
    */
   readonly probes: readonly Probe[]
-  /**
-   * A request that changes nothing, and how its answer is known among all others: a self test with a pattern that was
-   * not used before. For a fixed local port and a frame without serial number.
-   */
-  readonly proof: () => Echo
   /** Ranked causes, most likely first. */
   readonly explainSilence: (silence: Silence) => readonly string[]
   readonly onState: (state: ConnectionState) => void

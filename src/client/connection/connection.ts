@@ -1,13 +1,14 @@
-// One connection to one PLC, in the background: joins the supervisor with one line after the other, and gives promises.
-// It knows no protocol family; Exchange and AnswerFraming bring that.
+// The connection to one PLC, in the background: joins the supervisor with one attempt after the other, and gives promises.
+// It knows no protocol family; Exchange brings that. What carries the bytes is the line, which PLCs may share.
 import type { ConnectionError, PlcError } from '../../errors'
-import { type Exchange, Fence, type ResponseFrame, RoundTrips, SerialNumbers } from '../../link/link'
+import { type Exchange, type ResponseFrame, RoundTrips } from '../../link/link'
 import type { Clock } from '../../transport/clock'
 import { Alarm } from './alarm'
+import { Attempt, type AttemptOwner, takeAsDone } from './attempt'
 import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
 import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
 import * as failure from './failure'
-import { Line, type LineOwner, takeAsDone } from './line'
+import type { Line } from './line'
 import { Probing } from './probing'
 import { Signals } from './signals'
 import { Counters, type Statistics } from './statistics'
@@ -16,9 +17,6 @@ import { tellListener } from './tell-listener'
 
 export type { ConnectionOptions, ConnectionState, Silence, TracedFrame } from './connection-options'
 
-/** How soon the proof of a fixed port is asked again, as a part of the deadline of a usual call: datagrams get lost. */
-const PROOFS_PER_TIMEOUT = 8
-
 export class Connection {
   readonly #options: ConnectionOptions
   readonly #clock: Clock
@@ -26,11 +24,12 @@ export class Connection {
   readonly #counters = new Counters()
   readonly #alarm: Alarm
   readonly #signals = new Signals()
-  readonly #owner: LineOwner
+  readonly #line: Line
+  readonly #owner: AttemptOwner
   readonly #probing: Probing
   /** Calls that wait for the connection. */
   #held: Call[] = []
-  #line: Line | undefined
+  #attempt: Attempt | undefined
   #answeredBefore = false
   #since: number
   #generation = 0
@@ -38,23 +37,18 @@ export class Connection {
   /** Set by the owner to see every frame; costs nothing while unset. */
   onTrace: ((frame: TracedFrame) => void) | undefined
 
-  constructor(options: ConnectionOptions) {
+  constructor(line: Line, options: ConnectionOptions) {
+    this.#line = line
     this.#options = options
     this.#clock = options.clock
     this.#supervisor = new Supervisor(options.supervisor)
     this.#alarm = new Alarm(options.clock, () => this.#guard(() => this.#timeout()))
     this.#since = options.clock.time()
-    const { explainSilence, framing, proof, probes, timeout } = options
+    const { explainSilence, probes } = options
     const probing = new Probing(probes)
     this.#probing = probing
     this.#owner = {
       counters: this.#counters,
-      serials: new SerialNumbers(Math.floor(options.supervisor.random() * 0x10000)),
-      fence: new Fence(framing, {
-        ask: proof,
-        patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT),
-        onlyAtFirst: framing.correlation === 'serial',
-      }),
       roundTrips: new RoundTrips(),
       verified: (answered) => this.#verified(answered),
       proved: () => {
@@ -62,7 +56,6 @@ export class Connection {
         this.#supervisor.proved()
       },
       lost: (error) => this.#lost(error),
-      schedule: () => this.#schedule(),
       trace: (direction, bytes) => {
         if (this.onTrace !== undefined) tellListener(this.onTrace, { time: this.#clock.time(), direction, bytes })
       },
@@ -89,7 +82,7 @@ export class Connection {
   }
 
   get statistics(): Statistics {
-    return this.#counters.read(this.#waiting(), this.#line?.inFlight ?? 0)
+    return this.#counters.read(this.#waiting(), this.#attempt?.inFlight ?? 0)
   }
 
   /** Sends a request when its turn comes and resolves with its answer. Every rejection is a `PlcError`. */
@@ -161,7 +154,7 @@ export class Connection {
 
   /** Requests that wait for the connection or for their turn on it. */
   #waiting(): number {
-    return this.#held.length + (this.#line?.queued ?? 0)
+    return this.#held.length + (this.#attempt?.queued ?? 0)
   }
 
   #start(call: Call): void {
@@ -171,9 +164,9 @@ export class Connection {
       call.fail(failure.otherConnection(call.exchange.title))
       return
     }
-    if (this.#supervisor.name === 'connected' && this.#line !== undefined) {
-      this.#line.submit(call)
-      this.#line.flush()
+    if (this.#supervisor.name === 'connected' && this.#attempt !== undefined) {
+      this.#attempt.submit(call)
+      this.#attempt.flush()
       return
     }
     this.#held.push(call)
@@ -185,19 +178,19 @@ export class Connection {
     const held = this.#held.indexOf(call)
     if (held >= 0) this.#held.splice(held, 1)
     // A call that nobody knows any more has just been settled in the session: only "unknown" is certain to be true.
-    const sent = held < 0 && (this.#line?.abandon(call) ?? true)
+    const sent = held < 0 && (this.#attempt?.abandon(call) ?? true)
     if (call.sends) this.#counters.add('aborted')
     call.fail(call.aborted(sent ? 'unknown' : 'notSent'))
-    this.#line?.flush()
+    this.#attempt?.flush()
   }
 
   #expired(): PlcError | undefined {
-    return this.#supervisor.name === 'connected' ? this.#line?.expired() : undefined
+    return this.#supervisor.name === 'connected' ? this.#attempt?.expired() : undefined
   }
 
   /** What the PLC refused for good has been corrected: attempts go on. */
   retry(): void {
-    this.#line?.correct()
+    this.#attempt?.correct()
     if (this.#supervisor.retry()) this.#open()
   }
 
@@ -219,11 +212,11 @@ export class Connection {
     if (this.#supervisor.name === 'closed') return
     this.#supervisor.close()
     this.#alarm.cancel()
-    const line = this.#line
+    const attempt = this.#attempt
     const held = this.#held
-    this.#line = undefined
+    this.#attempt = undefined
     this.#held = []
-    line?.end((call, sent) => call.fail(failure.closedMeanwhile(call, sent ? 'unknown' : 'notSent')))
+    attempt?.end((call, sent) => call.fail(failure.closedMeanwhile(call, sent ? 'unknown' : 'notSent')))
     for (const call of held) call.fail(failure.closedMeanwhile(call, 'notSent'))
     this.#tellState()
   }
@@ -239,12 +232,12 @@ export class Connection {
 
   #open(): void {
     this.#counters.add('connects')
-    const line = new Line(this.#options, this.#owner, this.#probing.next)
-    this.#line = line
+    const attempt = new Attempt(this.#options, this.#line, this.#owner, this.#probing.next)
+    this.#attempt = attempt
     this.#tellState()
     this.#guard(() => {
       // A listener may have closed the connection meanwhile.
-      if (this.#line === line) line.open()
+      if (this.#attempt === attempt) attempt.open()
     })
     this.#schedule()
   }
@@ -258,7 +251,7 @@ export class Connection {
     const held = this.#held
     this.#held = []
     for (const call of held) {
-      if (call.sends) this.#line?.submit(call)
+      if (call.sends) this.#attempt?.submit(call)
       else call.answer(undefined)
     }
     this.#tellState()
@@ -266,16 +259,16 @@ export class Connection {
 
   #lost(error: PlcError): void {
     if (this.#supervisor.name === 'closed') return
-    const line = this.#line
-    this.#line = undefined
-    const probe = line?.probing
-    const pause = line?.isFinal(error) === true ? Number.POSITIVE_INFINITY : 0
-    if (line !== undefined && probe !== undefined && this.#probing.lost(error)) {
+    const attempt = this.#attempt
+    this.#attempt = undefined
+    const probe = attempt?.probing
+    const pause = attempt?.isFinal(error) === true ? Number.POSITIVE_INFINITY : 0
+    if (attempt !== undefined && probe !== undefined && this.#probing.lost(error)) {
       const next = this.#probing.next?.probe.name ?? ''
-      this.#supervisor.again(failure.probeUnanswered(line.peer, probe, next, error), this.#clock.now())
+      this.#supervisor.again(failure.probeUnanswered(attempt.peer, probe, next, error), this.#clock.now())
     } else this.#supervisor.lost(error, this.#clock.now(), pause)
-    if (line?.isOpen === true) this.#counters.add('disconnects')
-    line?.end((call, sent) => this.#handedBack(call, sent, error))
+    if (attempt?.isOpen === true) this.#counters.add('disconnects')
+    attempt?.end((call, sent) => this.#handedBack(call, sent, error))
     if (!this.#supervisor.hopeful) {
       const held = this.#held
       this.#held = []
@@ -298,7 +291,7 @@ export class Connection {
   /** A call that waited for the connection in vain. */
   #notConnected(call: Call): void {
     if (call.sends) this.#counters.add('timeouts')
-    const { peer = 'the PLC', isOpen: open = false, probing: asked } = this.#line ?? {}
+    const { peer = 'the PLC', isOpen: open = false, probing: asked } = this.#attempt ?? {}
     const causes = open ? this.#owner.causes(peer, asked) : []
     const attempt = { peer, open, causes, reason: this.#supervisor.error, asked }
     call.fail(failure.notConnectedInTime(call.sends ? call.exchange.title : undefined, attempt))
@@ -311,8 +304,7 @@ export class Connection {
 
   #schedule(): void {
     if (this.#supervisor.name === 'closed') return
-    let due = this.#line?.nextTimeout() ?? Number.POSITIVE_INFINITY
-    due = Math.min(due, this.#supervisor.nextAttempt ?? Number.POSITIVE_INFINITY)
+    let due = this.#supervisor.nextAttempt ?? Number.POSITIVE_INFINITY
     for (const call of this.#held) due = Math.min(due, call.deadline)
     this.#alarm.set(due)
   }
@@ -324,7 +316,6 @@ export class Connection {
       this.#notConnected(call)
     }
     if (this.#supervisor.timeout(now)) this.#open()
-    this.#line?.timeout(now)
     this.#schedule()
   }
 }

@@ -1,356 +1,325 @@
-// One attempt to connect and the connection it becomes: a transport, a session, and the first request that proves it.
-import { type ConnectionError, EndCodeError, endsConnection, type PlcError, ProtocolError } from '../../errors'
+// What carries bytes, for one PLC or several that share it: a transport at a time, the session on it, and who uses it.
+// It is open as long as anybody uses it. It knows no protocol family, and nothing of the state of a PLC.
+import type { PlcError } from '../../errors'
 import {
-  type Fence,
+  type AnswerFraming,
+  type Echo,
+  Fence,
   type Outcome,
-  type ResponseFrame,
-  type RoundTrips,
-  type SerialNumbers,
+  type RequestFrame,
+  type Sent,
+  SerialNumbers,
   Session,
   type SessionEvent,
 } from '../../link/link'
-import type { Transport } from '../../transport/transport'
+import type { Clock } from '../../transport/clock'
+import type { OpenTransport, Transport } from '../../transport/transport'
+import { Alarm } from './alarm'
 import type { Call } from './call'
-import type { ConnectionOptions, TracedFrame } from './connection-options'
 import * as failure from './failure'
-import { Opening } from './opening'
-import type { NextProbe } from './probing'
-import type { Counters } from './statistics'
-import { tellListener } from './tell-listener'
 
-/** Requests without any answer in a row after which the connection counts as dead, although nobody closed it. */
-const SILENT_REQUESTS = 2
-
-/** What a line needs of the connection it is a part of. */
-export interface LineOwner {
-  readonly counters: Counters
-  readonly serials: SerialNumbers
-  readonly fence: Fence
-  readonly roundTrips: RoundTrips
-  /** The PLC has answered the first request; or nothing is asked, and the first request of the program proves it. */
-  verified(answered: boolean): void
-  /** The PLC has answered a request of the program. */
-  proved(): void
-  /** The line is of no use any more: the owner ends it. */
-  lost(error: PlcError): void
-  /** Something is due at another time than before. */
-  schedule(): void
-  trace(direction: TracedFrame['direction'], bytes: Buffer): void
-  /** Ranked causes of a silence of this peer. `asked`: the client's own request, when it was asked no other. */
-  causes(peer: string, asked?: string): readonly string[]
-  /** The client's own requests that got no answer on the connections just before. */
-  readonly unanswered: readonly string[]
+export interface LineOptions {
+  readonly framing: AnswerFraming
+  readonly openTransport: OpenTransport
+  readonly clock: Clock
+  /** Requests in flight at once, of all PLCs together. */
+  readonly inFlight: number
+  /** ms */
+  readonly connectTimeout: number
+  /** Default deadline of a call, ms: the proof of a fixed port is asked again several times within it. */
+  readonly timeout: number
+  /**
+   * A request that changes nothing, and how its answer is known among all others: a self test with a pattern that was
+   * not used before. For a fixed local port and a frame without serial number.
+   */
+  readonly proof: () => Echo
+  /** 0 to below 1: where serial numbers begin. */
+  readonly random: () => number
 }
 
-type Done = Extract<SessionEvent<Call>, { kind: 'done' }>
+/** How a call ended on the line. */
+export interface LineEnd {
+  readonly job: Call
+  readonly outcome: Outcome
+  readonly sentAt: number | undefined
+}
 
-type TooLate = Extract<Outcome, { kind: 'tooLate' }>
+/** One PLC's use of a line, from joining until it leaves or the line is lost. */
+export interface LineUser {
+  /** Bytes can be sent. */
+  opened(): void
+  /** Bytes went out: its own, or such as are nobody's. */
+  sent(bytes: Buffer): void
+  /** Bytes came that may be for it: something of it was in flight, or nobody else uses the line. */
+  received(bytes: Buffer): void
+  settled(end: LineEnd): void
+  unsolicited(frame: RequestFrame): void
+  /** An answer was thrown away. `isAlive`: it shows that this PLC answers. */
+  stale(isAlive: boolean): void
+  /** The line has ended. `ends`: what was on it of this PLC, and what was answered just before. `lost` follows. */
+  ended(ends: readonly LineEnd[]): void
+  /** The line is lost, for everybody. `undefined`: the peer closed it in an orderly way. */
+  lost(error: PlcError | undefined): void
+}
+
+/** How soon the proof of a fixed port is asked again, as a part of the deadline of a usual call: datagrams get lost. */
+const PROOFS_PER_TIMEOUT = 8
+
+/** One transport, and the session on it once it is open. */
+interface Carrier {
+  readonly transport: Transport
+  session?: Session<Call>
+  /** When opening has taken too long. */
+  openBy: number | undefined
+}
 
 export class Line {
-  readonly #options: ConnectionOptions
-  readonly #owner: LineOwner
-  #transport: Transport | undefined
-  #session: Session<Call> | undefined
-  readonly #opening: Opening
-  #openBy: number | undefined
-  #silent = 0
-  #receivedAnything = false
-  #ended = false
+  readonly #options: LineOptions
+  readonly #alarm: Alarm
+  readonly #users = new Set<LineUser>()
+  readonly #serials: SerialNumbers
+  readonly #fence: Fence
+  #carrier: Carrier | undefined
+  #peer = 'the PLC'
 
-  constructor(options: ConnectionOptions, owner: LineOwner, probe: NextProbe | undefined) {
+  constructor(options: LineOptions) {
+    const { clock, framing, proof, random, timeout } = options
     this.#options = options
-    this.#owner = owner
-    this.#opening = new Opening(options, probe)
+    this.#alarm = new Alarm(clock, () => this.#timeout())
+    this.#serials = new SerialNumbers(Math.floor(random() * 0x10000))
+    this.#fence = new Fence(framing, {
+      ask: proof,
+      patience: Math.max(1, timeout / PROOFS_PER_TIMEOUT),
+      onlyAtFirst: framing.correlation === 'serial',
+    })
   }
 
-  /** Name of the request that is to prove the connection and has no answer yet. */
-  get probing(): string | undefined {
-    return this.#opening.probing
-  }
-
-  /** Whether bytes can be sent; the PLC need not have answered yet. */
+  /** Whether bytes can be sent; no PLC need have answered yet. */
   get isOpen(): boolean {
-    return this.#session !== undefined
+    return this.#carrier?.session !== undefined
   }
 
   get peer(): string {
-    return this.#transport?.description ?? 'the PLC'
+    return this.#carrier?.transport.description ?? this.#peer
   }
 
-  get queued(): number {
-    // While the connection is opened nothing waits on it but its own requests.
-    return this.#opening.isGoingOn ? 0 : (this.#session?.queued ?? 0)
+  get kind(): Transport['kind'] | undefined {
+    return this.#carrier?.transport.kind
   }
 
-  get inFlight(): number {
-    return this.#session?.inFlight ?? 0
+  get framing(): AnswerFraming {
+    return this.#options.framing
   }
 
-  /** @throws what the transport throws when it cannot be made or opened */
-  open(): void {
+  /** Requests of this user that are in flight, and that wait for their turn. */
+  counts(user: LineUser): { readonly inFlight: number; readonly queued: number } {
+    const session = this.#carrier?.session
+    if (session === undefined) return { inFlight: 0, queued: 0 }
+    if (this.#isAlone(user)) return { inFlight: session.inFlight, queued: session.queued }
+    return session.counts((call) => call.plc === user)
+  }
+
+  #userOf({ plc }: Call): LineUser | undefined {
+    for (const user of this.#users) if (user === plc) return user
+    return undefined
+  }
+
+  #isAlone(user: LineUser): boolean {
+    return this.#users.size === 1 && this.#users.has(user)
+  }
+
+  /**
+   * Uses the line from now on: opens it, when it is not.
+   * @throws what the transport throws when it cannot be made or opened
+   */
+  join(user: LineUser): void {
+    this.#users.add(user)
+    if (this.#carrier === undefined) this.#open()
+    else if (this.isOpen) user.opened()
+  }
+
+  /** Uses it no more; the last one closes it. @returns what was on the line of this user */
+  leave(user: LineUser): readonly LineEnd[] {
+    if (!this.#users.has(user)) return []
+    if (this.#isAlone(user)) {
+      const { ends, others } = this.#end()
+      for (const event of others) this.#take(event)
+      this.#users.delete(user)
+      return ends
+    }
+    this.#users.delete(user)
+    const released = this.#carrier?.session?.release((call) => call.plc === user, this.#options.clock.now()) ?? []
+    this.flush()
+    return released.map(({ job, sent }) => ({ job, outcome: { kind: 'disconnected', sent }, sentAt: undefined }))
+  }
+
+  #open(): void {
     const { clock, connectTimeout, openTransport } = this.#options
-    this.#openBy = clock.now() + connectTimeout
     const transport = openTransport()
-    this.#transport = transport
+    const carrier: Carrier = { transport, openBy: clock.now() + connectTimeout }
+    this.#carrier = carrier
     transport.open({
-      opened: () => this.#guard(() => this.#opened(transport)),
-      renewed: () => this.#guard(() => this.flush()),
-      received: (bytes) => this.#guard(() => this.#received(bytes)),
-      closed: (error) => this.#guard(() => this.#closed(error)),
+      opened: () => this.#guard(carrier, () => this.#opened(carrier)),
+      renewed: () => this.#guard(carrier, () => this.flush()),
+      received: (bytes) => this.#guard(carrier, () => this.#received(carrier, bytes)),
+      closed: (error) => this.#guard(carrier, () => this.#lose(error)),
     })
+    this.#schedule()
   }
 
   /**
    * For what the transport calls. One that was given up may still have a callback under way, which is not listened to.
    * Anything that is thrown is a bug of this package; the machine beside us must not lose its program to it.
    */
-  #guard(run: () => void): void {
-    if (this.#ended) return
+  #guard(carrier: Carrier | undefined, run: () => void): void {
+    if (carrier === undefined || this.#carrier !== carrier) return
     try {
       run()
     } catch (error) {
-      this.#lost(failure.asPlcError(error))
+      this.fail(failure.asPlcError(error))
     }
   }
 
-  #lost(error: PlcError): void {
-    if (!this.#ended) this.#owner.lost(error)
-  }
-
-  #opened(transport: Transport): void {
-    const { framing, inFlight, clock } = this.#options
-    const { serials, roundTrips } = this.#owner
-    this.#openBy = undefined
-    const options = { kind: transport.kind, window: inFlight, serials, roundTrips }
-    this.#session = new Session<Call>(framing, options, this.#fenceFor(transport))
-    const first = this.#opening.begin(clock.now())
-    if (first === undefined) this.#owner.verified(false)
-    else this.submit(first)
+  #opened(carrier: Carrier): void {
+    const { framing, inFlight } = this.#options
+    const { transport } = carrier
+    carrier.openBy = undefined
+    const options = { kind: transport.kind, window: inFlight, serials: this.#serials }
+    carrier.session = new Session<Call>(framing, options, this.#fenceFor(transport))
+    for (const user of [...this.#users]) if (this.#users.has(user)) user.opened()
     this.flush()
   }
 
   /** Where a late answer can come to the port of the next request, also one of the program before. */
   #fenceFor({ kind, renewable }: Transport): Fence | undefined {
-    return kind === 'stream' || renewable ? undefined : this.#owner.fence
+    return kind === 'stream' || renewable ? undefined : this.#fence
   }
 
-  /** A first request was answered. */
-  #goOn(refusal: PlcError | undefined): void {
-    const next = this.#opening.next(refusal, this.#options.clock.now())
-    if (next === undefined) this.#owner.verified(true)
-    else if ('exchange' in next) this.submit(next)
-    else this.#lost(next)
-  }
-
-  #received(bytes: Buffer): void {
-    this.#receivedAnything = true
-    this.#opening.heard(this.#options.clock.now())
-    this.#owner.counters.add('bytesReceived', bytes.length)
-    this.#owner.trace('received', bytes)
-    if (this.#ended) return
-    this.#session?.receive(bytes, this.#options.clock.now())
+  #received(carrier: Carrier, bytes: Buffer): void {
+    for (const user of this.#concerned()) user.received(bytes)
+    if (this.#carrier !== carrier) return
+    carrier.session?.receive(bytes, this.#options.clock.now())
     this.flush()
   }
 
-  #closed(error: ConnectionError | undefined): void {
-    this.#lost(error ?? failure.closedByPeer(this.peer, this.#receivedAnything, this.#askedAlone()))
-  }
-
-  /** The client's own requests, when no other was asked since a connection that worked. */
-  #askedAlone(): readonly string[] {
-    const { probing } = this.#opening
-    return probing === undefined ? [] : [...this.#owner.unanswered, probing]
-  }
-
-  #causes(): readonly string[] {
-    const asked = this.#askedAlone()
-    return this.#owner.causes(this.peer, asked.length === 1 ? asked[0] : undefined)
+  /** Whom bytes from the line may be for. */
+  #concerned(): readonly LineUser[] {
+    const users = [...this.#users]
+    return users.length === 1 ? users : users.filter((user) => this.counts(user).inFlight > 0)
   }
 
   /** Sends it when its turn comes. `flush` afterwards. */
   submit(call: Call): void {
-    this.#session?.submit(call, this.#options.clock.now())
+    this.#carrier?.session?.submit(call, this.#options.clock.now())
   }
 
   /** Gives a call up. `flush` afterwards. @returns whether it had been sent; `undefined` when it is not known here */
   abandon(call: Call): boolean | undefined {
-    return this.#session?.abandon(call, this.#options.clock.now())
+    return this.#carrier?.session?.abandon(call, this.#options.clock.now())
   }
 
   /** Takes what the session has to say, then what it has to send, until it is quiet. */
   flush(): void {
-    const session = this.#session
-    if (session === undefined) return
+    const carrier = this.#carrier
+    const session = carrier?.session
+    if (carrier === undefined || session === undefined) return
     for (let event = session.poll(); event !== undefined; event = session.poll()) {
       this.#take(event)
-      if (this.#ended) return
+      if (this.#carrier !== carrier) return
     }
-    while (this.#transport?.ready === true) {
-      const bytes = session.transmit()
-      if (bytes === undefined) break
-      this.#send(bytes)
-      if (this.#ended) return
+    while (carrier.transport.ready) {
+      const next = session.next()
+      if (next === undefined) break
+      this.#send(carrier, next)
+      if (this.#carrier !== carrier) return
     }
-    this.#owner.schedule()
+    this.#schedule()
   }
 
-  /** Why nothing may be sent any more without a new line. */
-  expired(): PlcError | undefined {
-    if (this.#transport?.kind !== 'datagram' || this.inFlight > 0) return undefined
-    return this.#opening.expired(this.#options.clock.now(), this.peer)
-  }
-
-  /** What the PLC refuses has been corrected. */
-  correct(): void {
-    this.#opening.correct()
-  }
-
-  /** Whether another attempt would end for the same reason. */
-  isFinal(reason: PlcError): boolean {
-    return this.#opening.isFinal(reason)
-  }
-
-  nextTimeout(): number | undefined {
-    return this.#openBy ?? this.#session?.nextTimeout()
-  }
-
-  timeout(now: number): void {
-    if (this.#openBy !== undefined && this.#openBy <= now) {
-      this.#lost(failure.connectTimedOut(this.peer, this.#options.connectTimeout))
-      return
-    }
-    this.#session?.timeout(now)
-    this.flush()
-  }
-
-  /** Ends it, and everything on it: what has no answer is handed back with whether it had been sent. */
-  end(handBack: (call: Call, sent: boolean) => void): void {
-    if (this.#ended) return
-    this.#ended = true
-    this.#transport?.close()
-    const session = this.#session
-    session?.disconnected()
-    for (let event = session?.poll(); event !== undefined; event = session?.poll()) {
-      if (event.kind === 'drop' || event.kind === 'renew') continue
-      // An answer that arrived just before is one all the same.
-      if (event.kind !== 'done' || event.outcome.kind !== 'disconnected') this.#take(event)
-      else if (!this.#opening.owns(event.job)) handBack(event.job, event.outcome.sent)
-    }
-  }
-
-  #send(bytes: Buffer): void {
-    this.#owner.counters.add('bytesSent', bytes.length)
-    this.#owner.trace('sent', bytes)
-    if (!this.#ended) this.#transport?.send(bytes)
+  #send(carrier: Carrier, { bytes, job }: Sent<Call>): void {
+    const user = job && this.#userOf(job)
+    for (const each of user === undefined ? [...this.#users] : [user]) each.sent(bytes)
+    if (this.#carrier === carrier) carrier.transport.send(bytes)
   }
 
   #take(event: SessionEvent<Call>): void {
-    const { counters } = this.#owner
     switch (event.kind) {
       case 'done':
-        this.#settle(event)
+        this.#userOf(event.job)?.settled(event)
         return
       case 'unsolicited':
-        counters.add('unsolicited')
-        tellListener(this.#options.onUnsolicited, event.frame)
+        for (const user of [...this.#users]) user.unsolicited(event.frame)
         return
       case 'stale':
-        // Too late for its request, but the PLC is alive.
-        this.#silent = 0
-        counters.add('stale')
+        // Whose it is nobody knows where several share the line.
+        for (const user of [...this.#users]) user.stale(this.#isAlone(user))
         return
       case 'stray':
-        counters.add('stale')
+        for (const user of [...this.#users]) user.stale(false)
         return
       case 'renew':
-        this.#transport?.renew()
+        this.#carrier?.transport.renew()
         return
       case 'drop':
-        if (event.error instanceof ProtocolError) counters.add('protocolErrors')
-        this.#lost(event.error)
+        this.fail(event.error)
         return
       default:
         event satisfies never
     }
   }
 
-  #settle({ job, outcome, sentAt }: Done): void {
-    if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
-    else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
-    else if (outcome.kind === 'unproved') this.#unproved(job)
-    else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
-    // `disconnected` is met by `end` only.
-    else if (outcome.kind === 'failed') job.fail(outcome.error)
+  /** The line is of no use any more, for whoever uses it. */
+  fail(error: PlcError): void {
+    this.#lose(error)
   }
 
-  #answered(job: Call, frame: ResponseFrame, sentAt: number | undefined): void {
-    const { counters } = this.#owner
-    const isProbe = this.#opening.owns(job)
-    this.#silent = 0
-    const roundTrip = sentAt === undefined ? undefined : this.#options.clock.now() - sentAt
-    const error = job.answer(frame, roundTrip)
-    if (!isProbe) {
-      counters.add('answered')
-      if (error instanceof EndCodeError) counters.add('refused')
-      if (roundTrip !== undefined) counters.roundTrip(roundTrip)
+  #lose(error: PlcError | undefined): void {
+    const users = [...this.#users]
+    const { ends, others } = this.#end()
+    this.#users.clear()
+    // First all of them get back what is theirs: whoever is told of the loss may close any of them.
+    for (const user of users) user.ended(ends.filter(({ job }) => job.plc === user))
+    for (const user of users) user.lost(error)
+    for (const event of others)
+      if (event.kind === 'unsolicited') for (const user of users) user.unsolicited(event.frame)
+  }
+
+  /** Ends what carries the bytes. @returns how every call ended that was on it, and what else there was to say */
+  #end(): { readonly ends: readonly LineEnd[]; readonly others: readonly SessionEvent<Call>[] } {
+    const carrier = this.#carrier
+    this.#peer = this.peer
+    this.#carrier = undefined
+    this.#alarm.cancel()
+    carrier?.transport.close()
+    const session = carrier?.session
+    session?.disconnected()
+    const ends: LineEnd[] = []
+    const others: SessionEvent<Call>[] = []
+    for (let event = session?.poll(); event !== undefined; event = session?.poll()) {
+      if (event.kind === 'done') ends.push(event)
+      else if (event.kind !== 'drop' && event.kind !== 'renew') others.push(event)
     }
-    if (error !== undefined && endsConnection(error, this.#options.framing.correlation)) {
-      counters.add('protocolErrors')
-      this.#lost(error)
-    } else if (this.#ended) return
-    else if (isProbe) this.#goOn(error)
-    else {
-      const locked = error === undefined ? undefined : this.#opening.lockedBy(error, this.peer)
-      if (locked === undefined) this.#owner.proved()
-      else this.#lost(locked)
-    }
+    return { ends, others }
   }
 
-  #timedOut(job: Call, sent: boolean): void {
-    const isProbe = this.#opening.owns(job)
-    if (sent && !job.exchange.answered) {
-      takeAsDone(job)
-      // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.
-      this.#lost(failure.reset(this.peer))
-      return
-    }
-    if (!isProbe) this.#owner.counters.add('timeouts')
-    const causes = this.#causes()
-    if (!sent) {
-      const error = failure.notSentInTime(job.exchange.title)
-      job.fail(error)
-      // The attempt ends with its first request: nothing else is due on a line that nobody may use yet.
-      if (isProbe) this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
-      return
-    }
-    this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
+  #schedule(): void {
+    const carrier = this.#carrier
+    const due = carrier?.openBy ?? carrier?.session?.nextTimeout(this.#options.clock.now())
+    if (due !== undefined) this.#alarm.set(due)
   }
 
-  /** It waited so long that an answer would not come in time: the connection is as good as before. */
-  #tooLate(job: Call, { waiting, roundTrip }: TooLate): void {
-    if (!this.#opening.owns(job)) this.#owner.counters.add('overloaded')
-    job.fail(failure.overloaded(job.exchange.title, waiting, roundTrip))
+  #timeout(): void {
+    const { clock, connectTimeout } = this.#options
+    const carrier = this.#carrier
+    this.#guard(carrier, () => {
+      const now = clock.now()
+      if (carrier?.openBy !== undefined && carrier.openBy <= now) {
+        this.fail(failure.connectTimedOut(this.peer, connectTimeout))
+        return
+      }
+      carrier?.session?.timeout(now)
+      this.flush()
+      this.#schedule()
+    })
   }
-
-  /** What must come back before a request on a fixed port did not: the request was not sent. */
-  #unproved(job: Call): void {
-    if (!this.#opening.owns(job)) this.#owner.counters.add('timeouts')
-    const causes = [failure.NO_SELF_TEST, ...this.#causes()]
-    this.#silence(job, causes, failure.unproved(job.exchange.title, this.peer, causes))
-  }
-
-  #silence(job: Call, causes: readonly string[], error: PlcError): void {
-    // Without an answer of any kind there is nothing to lose; the probe is such a case.
-    const unproved = this.#opening.owns(job) || !this.#receivedAnything
-    job.fail(error)
-    this.#silent += 1
-    // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
-    if (unproved || this.#silent >= SILENT_REQUESTS)
-      this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
-  }
-}
-
-/** A command that is not answered when it succeeds (Remote Reset): silence and a lost connection are its success. */
-export function takeAsDone(call: Call): void {
-  call.answer({ head: {}, serial: undefined, endCode: 0, body: Buffer.alloc(0) })
 }

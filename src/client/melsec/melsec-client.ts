@@ -41,10 +41,11 @@ import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
 import type { ClientEvents } from './client-events'
-import { type Control, controlOf, type Identity, identify, proofs, selfTestOf } from './control'
+import { type Control, controlOf, type Identity, identify, selfTestOf } from './control'
 import { explainSilence } from './diagnosis'
 import { filePartsOf } from './file-calls'
 import { ItemAccess } from './item-access'
+import { lineOf } from './line-of'
 import {
   EXCHANGE_OPTIONS,
   explainRequest,
@@ -59,7 +60,6 @@ import { notPermitted, optionsOfMany, overUdp } from './permission'
 import { probesOf } from './probes'
 import { RemotePassword } from './remote-password'
 import type { SendCommand } from './send-command'
-import { transportOf } from './transport-of'
 
 /** Node.js before 20.5 has no such symbol; programs for it bring one of this name. */
 const asyncDispose: typeof Symbol.asyncDispose = Symbol.asyncDispose ?? Symbol.for('Symbol.asyncDispose')
@@ -115,18 +115,14 @@ export class MelsecClient {
     this.#password = new RemotePassword(this.#protocol, password)
     const kind = settings.transport === 'udp' ? 'datagram' : 'stream'
     this.#tracer = new Tracer(this.#protocol.explainer(settings), kind)
-    this.#connection = new Connection({
-      framing: this.#protocol.framing,
-      openTransport: options.openTransport ?? transportOf(settings, options),
+    this.#connection = new Connection(lineOf(settings, options, this.#protocol), {
       clock: settings.clock,
       supervisor: settings,
-      inFlight: settings.inFlight,
       queueLimit: settings.queueLimit,
       connectTimeout: settings.connectTimeout,
       timeout: settings.timeout,
       unlocking: { exchange: () => this.#password.unlock(), isFinal: isPasswordRefusal, isLocked: isPortLocked },
       probes: probesOf(this.#protocol, settings.probe),
-      proof: proofs(this.#protocol, settings.random),
       explainSilence: (silence) =>
         explainSilence(
           { ...settings, port: options.port, localPort: options.localPort, frames: settings.profile.frames },

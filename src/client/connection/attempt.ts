@@ -1,0 +1,266 @@
+// One attempt to reach a PLC over a line, and what it becomes: unlocking, the request that proves the PLC, its silence.
+import { EndCodeError, endsConnection, type PlcError, ProtocolError } from '../../errors'
+import type { Outcome, RequestFrame, ResponseFrame, RoundTrips } from '../../link/link'
+import type { Call } from './call'
+import type { ConnectionOptions, TracedFrame } from './connection-options'
+import * as failure from './failure'
+import type { Line, LineEnd, LineUser } from './line'
+import { Opening } from './opening'
+import type { NextProbe } from './probing'
+import type { Counters } from './statistics'
+import { tellListener } from './tell-listener'
+
+/** Requests without any answer in a row after which the connection counts as dead, although nobody closed it. */
+const SILENT_REQUESTS = 2
+
+/** What an attempt needs of the connection it is made for. */
+export interface AttemptOwner {
+  readonly counters: Counters
+  readonly roundTrips: RoundTrips
+  /** The PLC has answered the first request; or nothing is asked, and the first request of the program proves it. */
+  verified(answered: boolean): void
+  /** The PLC has answered a request of the program. */
+  proved(): void
+  /** It is of no use any more: the owner ends it. */
+  lost(error: PlcError): void
+  trace(direction: TracedFrame['direction'], bytes: Buffer): void
+  /** Ranked causes of a silence of this peer. `asked`: the client's own request, when it was asked no other. */
+  causes(peer: string, asked?: string): readonly string[]
+  /** The client's own requests that got no answer on the connections just before. */
+  readonly unanswered: readonly string[]
+}
+
+type TooLate = Extract<Outcome, { kind: 'tooLate' }>
+
+export class Attempt implements LineUser {
+  readonly #options: ConnectionOptions
+  readonly #line: Line
+  readonly #owner: AttemptOwner
+  readonly #opening: Opening
+  #isOpen = false
+  #silent = 0
+  #receivedAnything = false
+  #over = false
+  /** What the line gave back when it ended. */
+  #ends: readonly LineEnd[] | undefined
+
+  constructor(options: ConnectionOptions, line: Line, owner: AttemptOwner, probe: NextProbe | undefined) {
+    this.#options = options
+    this.#line = line
+    this.#owner = owner
+    this.#opening = new Opening(options, probe)
+  }
+
+  /** Name of the request that is to prove the connection and has no answer yet. */
+  get probing(): string | undefined {
+    return this.#opening.probing
+  }
+
+  /** Whether bytes could be sent; the PLC need not have answered yet. */
+  get isOpen(): boolean {
+    return this.#isOpen
+  }
+
+  get peer(): string {
+    return this.#line.peer
+  }
+
+  get queued(): number {
+    // While the connection is opened nothing waits on it but its own requests.
+    return this.#opening.isGoingOn ? 0 : this.#line.counts(this).queued
+  }
+
+  get inFlight(): number {
+    return this.#line.counts(this).inFlight
+  }
+
+  /** @throws what the transport throws when it cannot be made or opened */
+  open(): void {
+    this.#line.join(this)
+  }
+
+  #lost(error: PlcError): void {
+    if (!this.#over) this.#owner.lost(error)
+  }
+
+  opened(): void {
+    this.#isOpen = true
+    const first = this.#opening.begin(this.#options.clock.now())
+    if (first === undefined) this.#owner.verified(false)
+    else this.submit(first)
+    this.flush()
+  }
+
+  /** A first request was answered. */
+  #goOn(refusal: PlcError | undefined): void {
+    const next = this.#opening.next(refusal, this.#options.clock.now())
+    if (next === undefined) this.#owner.verified(true)
+    else if ('exchange' in next) this.submit(next)
+    else this.#lost(next)
+  }
+
+  sent(bytes: Buffer): void {
+    this.#owner.counters.add('bytesSent', bytes.length)
+    this.#owner.trace('sent', bytes)
+  }
+
+  received(bytes: Buffer): void {
+    this.#receivedAnything = true
+    this.#opening.heard(this.#options.clock.now())
+    this.#owner.counters.add('bytesReceived', bytes.length)
+    this.#owner.trace('received', bytes)
+  }
+
+  unsolicited(frame: RequestFrame): void {
+    this.#owner.counters.add('unsolicited')
+    tellListener(this.#options.onUnsolicited, frame)
+  }
+
+  stale(isAlive: boolean): void {
+    // Too late for its request, but the PLC is alive.
+    if (isAlive) this.#silent = 0
+    this.#owner.counters.add('stale')
+  }
+
+  ended(ends: readonly LineEnd[]): void {
+    this.#ends = ends
+  }
+
+  lost(error: PlcError | undefined): void {
+    if (error instanceof ProtocolError) this.#owner.counters.add('protocolErrors')
+    this.#lost(error ?? failure.closedByPeer(this.peer, this.#receivedAnything, this.#askedAlone()))
+  }
+
+  /** The client's own requests, when no other was asked since a connection that worked. */
+  #askedAlone(): readonly string[] {
+    const { probing } = this.#opening
+    return probing === undefined ? [] : [...this.#owner.unanswered, probing]
+  }
+
+  #causes(): readonly string[] {
+    const asked = this.#askedAlone()
+    return this.#owner.causes(this.peer, asked.length === 1 ? asked[0] : undefined)
+  }
+
+  /** Sends it when its turn comes. `flush` afterwards. */
+  submit(call: Call): void {
+    call.over(this, this.#owner.roundTrips)
+    this.#line.submit(call)
+  }
+
+  /** Gives a call up. `flush` afterwards. @returns whether it had been sent; `undefined` when it is not known here */
+  abandon(call: Call): boolean | undefined {
+    return this.#line.abandon(call)
+  }
+
+  flush(): void {
+    if (!this.#over) this.#line.flush()
+  }
+
+  /** Why nothing may be sent any more without a new attempt. */
+  expired(): PlcError | undefined {
+    if (this.#line.kind !== 'datagram' || this.inFlight > 0) return undefined
+    return this.#opening.expired(this.#options.clock.now(), this.peer)
+  }
+
+  /** What the PLC refuses has been corrected. */
+  correct(): void {
+    this.#opening.correct()
+  }
+
+  /** Whether another attempt would end for the same reason. */
+  isFinal(reason: PlcError): boolean {
+    return this.#opening.isFinal(reason)
+  }
+
+  /** Ends it, and everything on it: what has no answer is handed back with whether it had been sent. */
+  end(handBack: (call: Call, sent: boolean) => void): void {
+    if (this.#over) return
+    this.#over = true
+    for (const end of this.#ends ?? this.#line.leave(this)) {
+      // An answer that arrived just before is one all the same.
+      if (end.outcome.kind !== 'disconnected') this.settled(end)
+      else if (!this.#opening.owns(end.job)) handBack(end.job, end.outcome.sent)
+    }
+  }
+
+  settled({ job, outcome, sentAt }: LineEnd): void {
+    if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
+    else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
+    else if (outcome.kind === 'unproved') this.#unproved(job)
+    else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
+    // `disconnected` is met by `end` only.
+    else if (outcome.kind === 'failed') job.fail(outcome.error)
+  }
+
+  #answered(job: Call, frame: ResponseFrame, sentAt: number | undefined): void {
+    const { counters } = this.#owner
+    const isProbe = this.#opening.owns(job)
+    this.#silent = 0
+    const roundTrip = sentAt === undefined ? undefined : this.#options.clock.now() - sentAt
+    const error = job.answer(frame, roundTrip)
+    if (!isProbe) {
+      counters.add('answered')
+      if (error instanceof EndCodeError) counters.add('refused')
+      if (roundTrip !== undefined) counters.roundTrip(roundTrip)
+    }
+    if (error !== undefined && endsConnection(error, this.#line.framing.correlation)) {
+      counters.add('protocolErrors')
+      this.#lost(error)
+    } else if (this.#over) return
+    else if (isProbe) this.#goOn(error)
+    else {
+      const locked = error === undefined ? undefined : this.#opening.lockedBy(error, this.peer)
+      if (locked === undefined) this.#owner.proved()
+      else this.#lost(locked)
+    }
+  }
+
+  #timedOut(job: Call, sent: boolean): void {
+    const isProbe = this.#opening.owns(job)
+    if (sent && !job.exchange.answered) {
+      takeAsDone(job)
+      // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.
+      this.#lost(failure.reset(this.peer))
+      return
+    }
+    if (!isProbe) this.#owner.counters.add('timeouts')
+    const causes = this.#causes()
+    if (!sent) {
+      const error = failure.notSentInTime(job.exchange.title)
+      job.fail(error)
+      // The attempt ends with its first request: nothing else is due on a line that nobody may use yet.
+      if (isProbe) this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
+      return
+    }
+    this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
+  }
+
+  /** It waited so long that an answer would not come in time: the connection is as good as before. */
+  #tooLate(job: Call, { waiting, roundTrip }: TooLate): void {
+    if (!this.#opening.owns(job)) this.#owner.counters.add('overloaded')
+    job.fail(failure.overloaded(job.exchange.title, waiting, roundTrip))
+  }
+
+  /** What must come back before a request on a fixed port did not: the request was not sent. */
+  #unproved(job: Call): void {
+    if (!this.#opening.owns(job)) this.#owner.counters.add('timeouts')
+    const causes = [failure.NO_SELF_TEST, ...this.#causes()]
+    this.#silence(job, causes, failure.unproved(job.exchange.title, this.peer, causes))
+  }
+
+  #silence(job: Call, causes: readonly string[], error: PlcError): void {
+    // Without an answer of any kind there is nothing to lose; the probe is such a case.
+    const unproved = this.#opening.owns(job) || !this.#receivedAnything
+    job.fail(error)
+    this.#silent += 1
+    // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
+    if (unproved || this.#silent >= SILENT_REQUESTS)
+      this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
+  }
+}
+
+/** A command that is not answered when it succeeds (Remote Reset): silence and a lost connection are its success. */
+export function takeAsDone(call: Call): void {
+  call.answer({ head: {}, serial: undefined, endCode: 0, body: Buffer.alloc(0) })
+}
