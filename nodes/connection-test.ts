@@ -24,9 +24,9 @@ import { withoutCauses } from './causes'
 import type { PlcConnection } from './connection'
 import { type AnsweringLine, answeringLines } from './connection-find'
 import { optionsOf, resolverOf, settingsOf } from './connection-settings'
-import { detailsOf, type FailureCode, type FailureDetails } from './failure'
+import { detailsOf, type FailureDetails } from './failure'
+import { type FailureCode, isBadAnswer } from './failure-code'
 import type { StoredSettings } from './migration'
-import { isBadAnswer } from './status'
 import type { Texts } from './texts'
 
 /** ms: how long connecting may take; a PLC that is off answers nothing at all. */

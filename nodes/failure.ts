@@ -2,8 +2,9 @@
 
 import { hex } from '../src/basics/hex'
 import { commands } from '../src/entry/codec'
-import type { EndCodeAbout, EndCodeFamily, Language, PlcErrorCode } from '../src/index'
+import type { EndCodeAbout, EndCodeFamily, Language } from '../src/index'
 import {
+  ClosedError,
   ConnectionError,
   EndCodeError,
   explainEndCode,
@@ -16,16 +17,8 @@ import {
   UnfinishedError,
 } from '../src/index'
 import { causesIn, messageWith } from './causes'
+import { type FailureCode, shortText } from './failure-code'
 import { languageOf, type Texts } from './texts'
-
-/** Failures that only nodes know. */
-export type NodeErrorCode =
-  | 'NOT_CONFIGURED' // settings of the node or its connection
-  | 'BAD_INPUT' // the message lacks what the node needs
-  | 'READ_BACK' // written and acknowledged, but the PLC holds something else
-  | 'UNEXPECTED' // a bug
-
-export type FailureCode = PlcErrorCode | NodeErrorCode
 
 /** What is known about a failure, as plain data: it survives being copied from message to message. */
 export interface FailureDetails {
@@ -129,10 +122,17 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
     return { ...specific(error.cause, texts), message: error.message }
   }
   if (error instanceof TimeoutError || error instanceof ConnectionError) {
-    if (error.causes.length === 0) return {}
-    return { message: messageWith(error.message, error.causes, texts), causes: causesIn(error.causes, texts) }
+    const { causes } = error
+    const message = begun(error, messageWith(error.message, causes, texts), texts)
+    return causes.length === 0 ? { message } : { message, causes: causesIn(causes, texts) }
   }
+  if (error instanceof ClosedError) return { message: begun(error, error.message, texts) }
   return {}
+}
+
+/** The library speaks English; where the runtime does not, the message begins with what the status says. */
+function begun({ code }: PlcError, message: string, texts: Texts): string {
+  return languageOf(texts) === 'en-US' ? message : `${shortText(code, texts)}: ${message}`
 }
 
 /** A message with its causes at its end, because a sidebar and a log show nothing else. */

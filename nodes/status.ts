@@ -3,48 +3,9 @@ import type { Node, NodeStatus } from 'node-red'
 import type { ConnectionState } from '../src/index'
 import type { Load } from './busy'
 import type { ConnectionUser } from './connection'
-import type { FailureCode, NodeFailure } from './failure'
+import type { NodeFailure } from './failure'
+import { type FailureCode, shortText } from './failure-code'
 import type { Texts } from './texts'
-
-/** Which short text stands for which failure; keys of `status` in the connection's catalogue. */
-const FAILURE_TEXTS = {
-  BAD_ADDRESS: 'badAddress',
-  BAD_TYPE: 'badAddress',
-  BAD_VALUE: 'badValue',
-  BAD_OPTION: 'badSettings',
-  BAD_MESSAGE: 'badInput',
-  OUT_OF_RANGE: 'outOfRange',
-  LIMIT_EXCEEDED: 'tooMuch',
-  UNSUPPORTED: 'unsupported',
-  NOT_PERMITTED: 'notAllowed',
-  END_CODE: 'endCode',
-  TRUNCATED: 'badAnswer',
-  TRAILING: 'badAnswer',
-  BAD_DIGIT: 'badAnswer',
-  BAD_FIELD: 'badAnswer',
-  BAD_FRAME: 'badAnswer',
-  BAD_SUM: 'badAnswer',
-  ECHO_MISMATCH: 'badAnswer',
-  UNEXPECTED_ANSWER: 'badAnswer',
-  TIMEOUT: 'timeout',
-  CONNECT_FAILED: 'notReached',
-  DISCONNECTED: 'disconnected',
-  ENTRY_BUSY: 'entryBusy',
-  PORT_UNAVAILABLE: 'portTaken',
-  SILENT: 'silent',
-  OFFLINE: 'disconnected',
-  CLOSED: 'closed',
-  ABORTED: 'closed',
-  QUEUE_FULL: 'queueFull',
-  OVERLOADED: 'overloaded',
-  NOT_VERIFIED: 'notVerified',
-  UNFINISHED: 'unfinished',
-  NOT_ALL_WRITTEN: 'unfinished',
-  NOT_CONFIGURED: 'badSettings',
-  BAD_INPUT: 'badInput',
-  READ_BACK: 'readBack',
-  UNEXPECTED: 'failed',
-} as const satisfies Record<FailureCode, string>
 
 /** What a Status node gets: to people in the language of the runtime, to programs as code and state. */
 export interface ShownStatus extends NodeStatus {
@@ -58,11 +19,6 @@ export interface ShownStatus extends NodeStatus {
   readonly skipped?: number
   /** Messages that are yet to be read. */
   readonly waiting?: number
-}
-
-/** Whether what was received is no answer of a PLC. */
-export function isBadAnswer(code: FailureCode): boolean {
-  return FAILURE_TEXTS[code] === 'badAnswer'
 }
 
 function ofState(state: ConnectionState, texts: Texts): ShownStatus {
@@ -85,7 +41,7 @@ function ofState(state: ConnectionState, texts: Texts): ShownStatus {
 }
 
 function ofCode(code: FailureCode, texts: Texts): ShownStatus {
-  return { fill: 'red', shape: 'ring', text: texts(`status.${FAILURE_TEXTS[code]}`), code }
+  return { fill: 'red', shape: 'ring', text: shortText(code, texts), code }
 }
 
 /** End codes as manuals and GX Works write them: four hexadecimal digits. */

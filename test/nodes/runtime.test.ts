@@ -40,18 +40,33 @@ describe('in Japanese', () => {
     plc.faults.clear()
   })
 
+  test('why a message was not sent', async () => {
+    plc.faults.add({ kind: 'delay', ms: 300, commands: ['readWords'] })
+    await red.deploy([connectionTo(plc, { timeout: '500' }), readNode(['D100'], { busy: 'queue' }), catchNode()])
+    await red.status('read', { fill: 'green' })
+    for (let message = 0; message < 5; message++) await red.receive('read', {})
+    const { error } = (await red.next('catch')) as Message & { error: CaughtError }
+    expect(error).toMatchObject({ code: 'OVERLOADED', cause: { outcome: 'notSent' } })
+    expect(error.message).toMatch(/^PlcError: .*要求が速すぎる: .*was not sent/)
+    plc.faults.clear()
+    await red.deploy([])
+    red.forget()
+  })
+
   test('likely causes, in the error, its message, the log and the connection test', async () => {
     const japanese = /^[^a-z]*[\u3040-\u30ff]/
     await red.deploy([connectionTo(plc, { port: '1' }), readNode(['D100']), catchNode()])
     await red.status('read', { fill: 'red' })
     const { cause, message } = await caught('read', {})
     expect(cause.causes).toEqual([expect.stringMatching(japanese), expect.any(String), expect.any(String)])
+    expect(message).toMatch(/^PlcError: 切断: .* 考えられる原因/)
     expect(message).toContain((cause.causes as string[])[0])
     expect(red.log.map(({ text }) => text)).toContainEqual(expect.stringContaining('オープン設定'))
     const settings = { host: '127.0.0.1', port: '1', profile: 'iq-r' }
     const tested = (await red.http('POST', 'melsec-jw/connection/test', { settings })).json() as Record<string, unknown>
     expect(tested.causes).toEqual(cause.causes)
-    expect(tested.message).not.toMatch(/[\u3040-\u30ff]|Likely/)
+    expect(tested.message).toMatch(/^到達不可: [^\u3040-\u30ff]+\.$/)
+    expect(tested.message).not.toContain('Likely')
   })
 })
 
