@@ -4,6 +4,7 @@ import { authentication } from './password'
 import type { Profile } from './profile'
 import { pointsOf } from './ranges'
 import { networks, openSettings, ownStationTimer } from './reach'
+import { cpuRefusals } from './refusals'
 import { doubtfulClearError, doubtfulMemoryCommands } from './shared-lacks'
 
 /** Figures of SLMP reference manual SH(NA)-081293 unless said otherwise. */
@@ -71,22 +72,10 @@ export const iqR: Profile = {
       'ST, LST, S, R and ZR have no points until a project gives them some: usual values',
   },
   refusals: {
-    deviceNumber: 0x4031,
+    ...cpuRefusals,
     deviceName: 0x4030,
-    extendedDeviceName: 0xc05b,
-    bitUnitsOfWordDevice: 0xc05c,
-    extension: 0x4043,
-    command: 0xc059,
-    monitorNotRegistered: 0xc05d,
-    length: 0xc061,
-    notInStop: 0x4013,
-    remote: 0x408b,
     device: 0x4030,
-    monitoredContact: 0x4032,
-    wholeDevices: 0xc051,
-    bufferMemory: 0x4041,
-    station: 0x4b00,
-    module: 0x4b02,
+    extension: 0x4043,
     source:
       'device number and name, also in an extension specification, and parts of LCN measured by others on R120PCPU; the others background (error code lists of CPU and Ethernet modules)',
   },

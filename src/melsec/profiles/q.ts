@@ -6,6 +6,7 @@ import { passwordMismatch } from './password'
 import type { Lack, Profile, StatusRegister } from './profile'
 import { pointsOf } from './ranges'
 import { networks, openSettings, ownStationTimer } from './reach'
+import { cpuRefusals } from './refusals'
 import { doubtfulClearError, doubtfulMemoryCommands } from './shared-lacks'
 
 /** What Q and L share: long devices came with iQ-R. */
@@ -113,22 +114,10 @@ export const q: Profile = {
       'ST has no points until a project gives it some: a usual value',
   },
   refusals: {
-    deviceNumber: 0x4031,
+    ...cpuRefusals,
     deviceName: 0xc05b,
-    extendedDeviceName: 0xc05b,
-    bitUnitsOfWordDevice: 0xc05c,
-    extension: 0xc070,
-    command: 0xc059,
-    monitorNotRegistered: 0xc05d,
-    length: 0xc061,
-    notInStop: 0x4013,
-    remote: 0x408b,
     device: 0xc05b,
-    monitoredContact: 0x4032,
-    wholeDevices: 0xc051,
-    bufferMemory: 0x4041,
-    station: 0x4b00,
-    module: 0x4b02,
+    extension: 0xc070,
     source:
       'device number, device name, command and extension measured by others on QnUDV; the others background (error code lists of CPU and Ethernet modules)',
   },
