@@ -77,11 +77,10 @@ export class ACompatiblePort {
 
   /** @throws Refusal with an end code of 1E */
   read(frame: RequestFrame<Head1e>): Translated {
-    const { command, message } = this.#request(frame)
+    const { command, name, message } = this.#request(frame)
     if (frame.head.pc !== CONNECTED_STATION) {
       throw new Refusal(END.cpu, `there is no station with PC No. ${frame.head.pc}`, ABNORMAL.pc)
     }
-    const name = command.name as ACompatibleCommandName
     return {
       name: slmpNameOf(name),
       message: this.#translated(name, message),
@@ -98,11 +97,15 @@ export class ACompatiblePort {
     return hasZero ? Buffer.concat([body, zeroBehind[this.#code]]) : body
   }
 
-  #request(frame: RequestFrame<Head1e>): { readonly command: NamedCommand; readonly message: Message } {
-    const known = Object.values<NamedCommand>(aCompatibleCommands).some(({ code }) => code === frame.head.command)
-    if (!known) throw new Refusal(END.command, `there is no command ${frame.head.command} in 1E`)
+  #request(frame: RequestFrame<Head1e>): {
+    readonly command: NamedCommand
+    readonly name: ACompatibleCommandName
+    readonly message: Message
+  } {
+    const known = Object.values(aCompatibleCommands).find(({ code }) => code === frame.head.command)
+    if (known === undefined) throw new Refusal(END.command, `there is no command ${frame.head.command} in 1E`)
     try {
-      return this.#protocol.readRequest(frame)
+      return { ...this.#protocol.readRequest(frame), name: known.name }
     } catch (error) {
       if (!(error instanceof PlcError)) throw error
       throw new Refusal(this.#endCodeOf(error, frame.body), error.message)

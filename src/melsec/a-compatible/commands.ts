@@ -116,5 +116,10 @@ export const aCompatibleCommands = declare({
  * @experimental The shapes of the declarations may change in any version; the names of commands and what their messages hold do not.
  */
 export type ACompatibleCommands = typeof aCompatibleCommands
-/** Name of a command of the 1E frame, e.g. `batchReadWords`. */
+/** Name of a command of the 1E frame, e.g. `loopback`. */
 export type ACompatibleCommandName = keyof ACompatibleCommands
+
+/** Whether 1E has a command of this name. */
+export function isACompatible(name: string): name is ACompatibleCommandName {
+  return Object.hasOwn(aCompatibleCommands, name)
+}

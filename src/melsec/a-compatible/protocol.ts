@@ -8,7 +8,7 @@ import type { DeviceAddress } from '../device/device'
 import { refusalTexts } from '../end-codes/end-code'
 import { factsOf } from '../end-codes/facts'
 import { frame1e, type Head1e } from '../frame/frame-1e'
-import { type ACompatibleCommandName, aCompatibleCommands } from './commands'
+import { type ACompatibleCommandName, aCompatibleCommands, isACompatible } from './commands'
 import {
   type ACompatibleFamily,
   aCompatibleLimit,
@@ -48,8 +48,10 @@ export function aCompatibleProtocol(options: ACompatibleOptions): HeadProtocol<H
     headOf: (command) => ({ command: command.code, pc, timer }),
     codeOf: (head) => head.command,
     prepare(command, message) {
+      const { name } = command
+      if (!isACompatible(name)) throw new RequestError('UNSUPPORTED', `A 1E frame has no command ${name}.`, name)
       if (code === 'ascii') checkAscii(command, message, asciiXy, oddBits)
-      return prepared(family, command.name as ACompatibleCommandName, message)
+      return prepared(family, name, message)
     },
     dummies: (command, request, side) =>
       code === 'ascii' && oddBits === 'padded' && isOdd(command, request, side) ? 1 : 0,
