@@ -4,6 +4,7 @@ import { promisify } from 'node:util'
 import { beforeAll, describe, expect, test } from '@jest/globals'
 import { build } from './cli/cli'
 import { root } from './support/root'
+import { readText } from './support/syntax'
 
 const run = promisify(execFile)
 
@@ -16,10 +17,11 @@ async function loadedBy(program: string): Promise<string[]> {
   return (JSON.parse(stdout) as string[]).map((path) => path.slice(root.length + 1).replaceAll('\\', '/'))
 }
 
-/** Texts of end codes, and the tables of character codes. */
-const isLarge = (path: string) =>
-  (path.startsWith('dist/src/melsec/end-codes/') && !/\/(end-code|texts)\.js$/.test(path)) ||
-  path.includes('iconv-lite')
+/** Texts of end codes, each in four languages, and the tables of character codes. Facts about end codes are small. */
+function isLarge(path: string): boolean {
+  if (path.includes('iconv-lite')) return true
+  return path.startsWith('dist/src/melsec/end-codes/') && /\p{Script=Han}/u.test(readText(path))
+}
 
 const read = `const { createMelsecClient } = require('./dist/src/index.js')
 const { createPlcSimulator } = require('./dist/src/entry/simulator.js')
@@ -27,8 +29,10 @@ const simulator = createPlcSimulator({ profile: 'iq-r' })
 const plc = createMelsecClient({ profile: 'iq-r', openTransport: simulator.connect() })
 await plc.read(['D100:REAL', 'M0', 'D200:STRING(10)']);`
 
+const entries = ['index', 'entry/address', 'entry/codec', 'entry/simulator']
+
 describe('no text of an end code and no table of characters is loaded', () => {
-  test.each(['index', 'entry/address', 'entry/codec', 'entry/simulator'])('by %s alone', async (entry) => {
+  test.each(entries)('by %s alone', async (entry) => {
     const loaded = await loadedBy(`require('./dist/src/${entry}.js')`)
     expect(loaded).toContain(`dist/src/${entry}.js`)
     expect(loaded.filter(isLarge)).toEqual([])
@@ -41,7 +45,7 @@ describe('no text of an end code and no table of characters is loaded', () => {
 
 test('both are loaded when they are needed', async () => {
   const refused = await loadedBy(`${read} await plc.read('D99999').catch(() => {}); await plc.close()`)
-  expect(refused).toContain('dist/src/melsec/end-codes/tables.js')
+  expect(refused.filter(isLarge)).toContain('dist/src/melsec/end-codes/slmp.js')
   const text = await loadedBy(`${read} await plc.read({ address: 'D200:STRING(4)', encoding: 'shift-jis' })`)
   expect(text.filter((path) => path.includes('iconv-lite'))).not.toEqual([])
 })
@@ -50,4 +54,14 @@ test('addresses alone need none of what sends and receives', async () => {
   const loaded = await loadedBy(`require('./dist/src/entry/address.js')`)
   const rooms = new Set(loaded.map((path) => path.split('/').slice(2, -1).join('/')))
   expect([...rooms].sort()).toEqual(['', 'basics', 'client/item', 'entry', 'melsec/device', 'value'])
+})
+
+// `sideEffects` in package.json says so, and bundlers believe it.
+test('loading does nothing but define what is exported', async () => {
+  const program = `const seen = () => JSON.stringify([Reflect.ownKeys(globalThis).map(String), process.eventNames().map(String), process.getActiveResourcesInfo()])
+for (const known of [Object, Function, Array, String, Number, Map, Set, Promise, Error, Uint8Array, Buffer]) Object.freeze(known.prototype)
+const before = seen()
+for (const entry of ${JSON.stringify(entries)}) require('./dist/src/' + entry + '.js')
+if (seen() !== before) throw new Error(before + ' became ' + seen())`
+  await expect(loadedBy(program)).resolves.toContain('dist/src/index.js')
 })
