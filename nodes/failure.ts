@@ -12,6 +12,7 @@ import {
   isPortLocked,
   type Outcome,
   PlcError,
+  ProtocolError,
   RequestError,
   TimeoutError,
   UnfinishedError,
@@ -42,7 +43,7 @@ export interface FailureDetails {
   readonly commandName?: string
   /** Station that reported the error. */
   readonly station?: string
-  /** Item, field or option it is about. */
+  /** Item, option, or field of the message it is about. */
   readonly field?: string
   /** Ranked causes, most likely first. */
   readonly causes?: readonly string[]
@@ -116,7 +117,7 @@ function specific(error: PlcError, texts: Texts): Partial<FailureDetails> {
       ...toldWith(refusedText(error, explained, texts), isPortLocked(error) ? [texts('error.portLocked')] : []),
     }
   }
-  if (error instanceof RequestError) return present({ field: error.field })
+  if (error instanceof RequestError || error instanceof ProtocolError) return present({ field: error.field })
   if (error instanceof UnfinishedError && error.cause instanceof PlcError) {
     // Why it failed; the message says what is in the PLC now.
     return { ...specific(error.cause, texts), message: error.message }

@@ -32,7 +32,7 @@ const errors: readonly PlcError[] = [
   new RequestError('BAD_VALUE', 'bad', 'D0'),
   refused,
   perhaps,
-  new ProtocolError('BAD_FRAME', 'frame', 2, Uint8Array.of(1, 0xff)),
+  new ProtocolError('BAD_FRAME', 'frame', { offset: 2, bytes: Uint8Array.of(1, 0xff), field: 'words.0.device' }),
   new TimeoutError('late', 'unknown', ['cable']),
   offline,
   new ClosedError('ABORTED', 'aborted', 'unknown', refused),

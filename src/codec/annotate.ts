@@ -2,7 +2,7 @@
 import { hex } from '../basics/hex'
 import { ProtocolError } from '../errors'
 import { asked, type Context, countToRead, sizeIn } from './count'
-import type { Reader } from './cursor'
+import { placeText, type Reader } from './cursor'
 import { type DataCode, readerOf } from './data-code'
 import type { BulkField, Count, CountField, Field, Message, Shape } from './field'
 import { decode } from './layout'
@@ -91,8 +91,8 @@ export function annotate(shape: Shape, bytes: Buffer, options: AnnotateOptions):
 
 /** Place and reason of a reading error; `base` is where its bytes begin. */
 export function faultOf(error: ProtocolError, base: number): FrameFault {
-  const { offset = 0, message } = error
-  const place = `Received data is wrong at byte ${offset}: `
+  const { offset = 0, message, field } = error
+  const place = placeText(offset, field)
   const reason = message.startsWith(place) ? message.slice(place.length) : message
   return { offset: base + offset, message: reason.replace(/\.$/, '') }
 }

@@ -146,10 +146,15 @@ export abstract class Input {
 
 const SHOWN_BYTES = 64
 
+/** How the message of a reading error begins. */
+export function placeText(offset: number, field?: string): string {
+  return `Received data is wrong at byte ${offset}${field === undefined ? '' : ` (${field})`}: `
+}
+
 /** Throws the `ProtocolError` for bytes that are wrong at `offset`. */
 export function failAt(code: ProtocolErrorCode, offset: number, bytes: Buffer, message: string): never {
   const shown = Buffer.from(bytes.subarray(0, SHOWN_BYTES))
-  throw new ProtocolError(code, `Received data is wrong at byte ${offset}: ${message}.`, offset, shown)
+  throw new ProtocolError(code, `${placeText(offset)}${message}.`, { offset, bytes: shown })
 }
 
 /** Throws the `RequestError` for a message value that no frame can carry. */

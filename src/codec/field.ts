@@ -119,6 +119,13 @@ export function isVisible(field: Field): field is VisibleField {
   return !INVISIBLE.some((kind) => kind === field.kind)
 }
 
+/** The field of a path as errors name it, e.g. `words.0.device`; undefined for one that the shape does not have. */
+export function fieldAt(shape: Shape, path: string): Field | undefined {
+  const [name = '', , ...inner] = path.split('.')
+  const found = Object.hasOwn(shape, name) ? shape[name] : undefined
+  return found?.kind === 'list' && inner.length > 0 ? fieldAt(found.item, inner.join('.')) : found
+}
+
 type VisibleKey<S extends Shape> = { [K in keyof S]: S[K]['kind'] extends Invisible ? never : K }[keyof S]
 type OptionalKey<S extends Shape> = {
   [K in VisibleKey<S>]: S[K] extends { readonly default: unknown } ? K : never

@@ -1,7 +1,7 @@
 // The one place that gives a field its meaning, for both directions and both codes.
-import { RequestError } from '../errors'
+import { ProtocolError, RequestError } from '../errors'
 import { asked, type Context, countIn, countToRead, isArrayLike } from './count'
-import { badMessage, type Reader, type Writer } from './cursor'
+import { badMessage, placeText, type Reader, type Writer } from './cursor'
 import {
   type BulkField,
   type Charset,
@@ -262,7 +262,7 @@ function show(given: unknown): string {
 
 /**
  * Reads a message of `shape`. The caller ends with `reader.end()`.
- * @throws ProtocolError when the bytes are not such a message.
+ * @throws ProtocolError naming the field, when the bytes are not such a message.
  */
 export function decode<S extends Shape>(shape: S, reader: Reader, context?: Context): MessageOf<S> {
   return decodeMessage(shape, reader, context) as MessageOf<S>
@@ -271,17 +271,36 @@ export function decode<S extends Shape>(shape: S, reader: Reader, context?: Cont
 function decodeMessage(shape: Shape, reader: Reader, context: Context | undefined): Message {
   const message: Record<string, unknown> = {}
   let counts: Record<string, number> | undefined
-  for (const name in shape) {
-    const field = shape[name] as Field
-    if (field.kind === 'count') {
-      counts ??= {}
-      counts[field.of] = readCount(field, reader)
-    } else if (field.kind === 'fixed') readFixed(field, name, reader)
-    else if (field.kind === 'spare') readSpare(field.size, reader)
-    else if (field.kind === 'echo') readEcho(field.of, name, reader, context)
-    else message[name] = get(field, name, counts?.[name], message, reader, context)
+  let at = ''
+  try {
+    for (const name in shape) {
+      at = name
+      const field = shape[name] as Field
+      if (field.kind === 'count') {
+        counts ??= {}
+        counts[field.of] = readCount(field, reader)
+      } else if (field.kind === 'fixed') readFixed(field, name, reader)
+      else if (field.kind === 'spare') readSpare(field.size, reader)
+      else if (field.kind === 'echo') readEcho(field.of, name, reader, context)
+      else message[name] = get(field, name, counts?.[name], message, reader, context)
+    }
+  } catch (error) {
+    throw located(at, error)
   }
   return message
+}
+
+/** Says of a reading error which field it is about, so that nested lists give a path. */
+function located(name: string, error: unknown): unknown {
+  if (!(error instanceof ProtocolError)) return error
+  const { code, message, offset = 0, bytes, field } = error
+  const path = field === undefined ? name : `${name}.${field}`
+  const reason = message.slice(placeText(offset, field).length)
+  return new ProtocolError(code, `${placeText(offset, path)}${reason}`, {
+    offset,
+    ...(bytes === undefined ? {} : { bytes }),
+    field: path,
+  })
 }
 
 function get(
@@ -312,7 +331,7 @@ function get(
     case 'list':
       return readList(field.item, counted ?? countToRead(field.count, name, message, context), reader, context)
     case 'each':
-      return (asked(context).message[field.of] as readonly Message[]).map((element) =>
+      return readEach(asked(context).message[field.of] as readonly Message[], (element) =>
         get(field.item, '', undefined, element, reader, undefined),
       )
     default:
@@ -391,7 +410,15 @@ function readText(field: Extract<Field, { kind: 'text' }>, count: number, reader
 }
 
 function readList(item: Shape, count: number, reader: Reader, context: Context | undefined): Message[] {
-  const elements: Message[] = []
-  for (let i = 0; i < count; i++) elements.push(decodeMessage(item, reader, context))
-  return elements
+  return readEach({ length: count }, () => decodeMessage(item, reader, context))
+}
+
+function readEach<E, T>(elements: ArrayLike<E>, read: (element: E) => T): T[] {
+  const values: T[] = []
+  try {
+    while (values.length < elements.length) values.push(read(elements[values.length] as E))
+  } catch (error) {
+    throw located(String(values.length), error)
+  }
+  return values
 }

@@ -55,9 +55,11 @@ const MAKERS: Readonly<Record<string, (message: string, given: Bag) => PlcError>
   },
   ProtocolError: (message, given) => {
     const { bytes, offset } = given
-    const received = typeof bytes === 'string' ? bytesOf(bytes) : undefined
-    const at = typeof offset === 'number' ? offset : undefined
-    return new ProtocolError(oneOf(given, 'code', PROTOCOL_CODES), message, at, received)
+    return new ProtocolError(oneOf(given, 'code', PROTOCOL_CODES), message, {
+      ...(typeof offset === 'number' ? { offset } : {}),
+      ...(typeof bytes === 'string' ? { bytes: bytesOf(bytes) } : {}),
+      ...textsIn(given, ['field']),
+    })
   },
   TimeoutError: (message, given) => new TimeoutError(message, oneOf(given, 'outcome', UNANSWERED), causesIn(given)),
   ConnectionError: (message, given) => {

@@ -90,6 +90,7 @@ export class HeadProtocol<H extends Head> {
     throw new ProtocolError(
       'ECHO_MISMATCH',
       `The answer is to ${commandText(answered)}, asked was ${hex(command.code, 2)}H.`,
+      { field: 'command' },
     )
   }
 

@@ -312,11 +312,14 @@ export class Session<J extends Job = Job> {
     try {
       const found = this.#find(datagram)
       if (found === undefined) {
-        throw new ProtocolError('TRUNCATED', 'A datagram ended before its frame did.', length, datagram)
+        throw new ProtocolError('TRUNCATED', 'A datagram ended before its frame did.', {
+          offset: length,
+          bytes: datagram,
+        })
       }
       if (!endsWith(found, datagram)) {
         const message = `A datagram holds ${length - found.used} byte(s) behind its frame.`
-        throw new ProtocolError('TRAILING', message, found.used, datagram)
+        throw new ProtocolError('TRAILING', message, { offset: found.used, bytes: datagram })
       }
       this.#take(found, now)
     } catch (error) {
@@ -358,7 +361,10 @@ export class Session<J extends Job = Job> {
         return
       case 'unasked':
         if (this.#options.kind === 'stream') {
-          throw new ProtocolError('UNEXPECTED_ANSWER', 'An answer arrived that nobody asked for.', 0, this.#received)
+          throw new ProtocolError('UNEXPECTED_ANSWER', 'An answer arrived that nobody asked for.', {
+            offset: 0,
+            bytes: this.#received,
+          })
         }
         this.#events.push({ kind: 'stale', serial: undefined })
         return

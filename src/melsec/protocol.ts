@@ -241,6 +241,7 @@ export class SlmpCommandSet {
       throw new ProtocolError(
         'ECHO_MISMATCH',
         `The answer is about ${codes(found)}, not ${codes({ command: command.code, subcommand })}.`,
+        { field: found.command === command.code ? 'subcommand' : 'command' },
       )
     }
     decode(this.#layout.reserved, reader)
@@ -256,6 +257,7 @@ export class SlmpCommandSet {
       throw new ProtocolError(
         'ECHO_MISMATCH',
         `The answer with end code ${hex(frame.endCode, 4)} is about ${codes(information)}, not ${codes({ command: command.code, subcommand })}.`,
+        { field: information.command === command.code ? 'subcommand' : 'command' },
       )
     }
     const { endCode } = frame

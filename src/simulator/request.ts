@@ -1,10 +1,10 @@
 // A request as it arrived: which command it is, what it says, or why it cannot be read.
-import { decode, type Message, type Reader, readerOf, type Shape, type ValueCodec } from '../codec/codec'
-import { PlcError } from '../errors'
+import { field, type Message, readerOf } from '../codec/codec'
+import { PlcError, ProtocolError } from '../errors'
 import type { RequestFrame } from '../link/link'
 import { commands } from '../melsec/commands/commands'
 import { deviceAddress } from '../melsec/device/codec'
-import { codecBits, findCommand } from '../melsec/device/form'
+import { findCommand } from '../melsec/device/form'
 import { limitsOf } from '../melsec/device/limit'
 import { setReset } from '../melsec/device/set-reset'
 import type { Head1e } from '../melsec/frame/frame-1e'
@@ -82,64 +82,26 @@ function requestOf(
     return new Refusal(protocol.profile.refusals.command, 'no such command or subcommand')
   } catch (error) {
     if (!(error instanceof PlcError)) throw error
-    return new Refusal(endCodeOf(protocol, frame.body, code, subcommand, error), error.message)
+    return new Refusal(endCodeOf(protocol, code, subcommand, error), error.message)
   }
 }
 
 /** The end code for a request whose data are not what its command says. */
-function endCodeOf(protocol: SlmpCommandSet, body: Buffer, code: number, subcommand: number, error: PlcError): number {
+function endCodeOf(protocol: SlmpCommandSet, code: number, subcommand: number, error: PlcError): number {
   const { refusals } = protocol.profile
   if (error.code === 'BAD_DIGIT') return requestErrors.asciiConversion
   if (error.code === 'TRUNCATED' || error.code === 'TRAILING') return refusals.length
   const found = findCommand(commands, protocol.profile, code, subcommand)
+  const culprit =
+    found && error instanceof ProtocolError ? field.fieldAt(found.command.request, error.field ?? '') : undefined
   // The station extension frame has fixed values in front of the data.
-  const fixed = body.subarray(protocol.code === 'ascii' ? 8 : 4, protocol.dataAt)
-  if (found === undefined || fixed.some((byte) => byte !== 0)) return requestErrors.content
-  const bits = codecBits(found.command, found.form, subcommand)
-  const reader = readerOf(protocol.code, body.subarray(protocol.dataAt), bits)
-  const culprit = culpritOf(found.command.request, reader)
-  if (culprit === deviceAddress) {
+  if (found === undefined || culprit === undefined) return requestErrors.content
+  const codec = culprit.kind === 'value' ? culprit.codec : undefined
+  if (codec === deviceAddress) {
     return found.form.startsWith('extended') ? refusals.extendedDeviceName : refusals.deviceName
   }
-  if (culprit === setReset) return requestErrors.bitData
+  if (codec === setReset) return requestErrors.bitData
   // The other fields of commands that have limits are points and counts: here one of them is 0.
   const [limit] = limitsOf(protocol.profile, found.command.name, found.form, protocol.code)
   return limit?.endCode ?? requestErrors.content
-}
-
-/** The value codec that cannot read its field, if it is one of them. */
-function culpritOf(shape: Shape, reader: Reader): unknown {
-  let culprit: unknown
-  const watched = watch(shape, (codec) => {
-    culprit ??= codec
-  })
-  try {
-    decode(watched, reader)
-  } catch (error) {
-    if (!(error instanceof PlcError)) throw error
-  }
-  return culprit
-}
-
-/** The same shape; `failed` is told which codec cannot read. */
-function watch(shape: Shape, failed: (codec: unknown) => void): Shape {
-  const entries = Object.entries(shape).map(([name, field]): [string, Shape[string]] => {
-    if (field.kind === 'list') return [name, { ...field, item: watch(field.item, failed) }]
-    return field.kind === 'value' ? [name, { ...field, codec: watchCodec(field.codec, failed) }] : [name, field]
-  })
-  return Object.fromEntries(entries)
-}
-
-function watchCodec(codec: ValueCodec<unknown>, failed: (codec: unknown) => void): ValueCodec<unknown> {
-  return {
-    ...codec,
-    read(reader) {
-      try {
-        return codec.read(reader)
-      } catch (error) {
-        failed(codec)
-        throw error
-      }
-    },
-  }
 }

@@ -128,7 +128,8 @@ describe.each(['request', 'response'] as const)('%s', (side) => {
         const failure = failed(withoutMultiples(shape))
         if (fault === undefined) expect(failed(shape) !== undefined).toBe(notes.length > 0)
         expect(fault?.offset).toBe(failure?.offset === undefined ? undefined : failure.offset + 100)
-        if (failure !== undefined) expect(failure.message).toContain(`: ${fault?.message}.`)
+        expect(fault?.name).toBe(failure?.field)
+        if (failure !== undefined) expect(failure.message).toContain(`(${failure.field}): ${fault?.message}.`)
       }),
       { numRuns: 30, endOnFailure: true },
     )

@@ -14,7 +14,7 @@ import { ProtocolError, RequestError } from '../../src/errors'
 import { jwCommands } from '../../src/jw/commands'
 import { commands } from '../../src/melsec/commands/commands'
 
-const { bits, bytes, countOf, doubleWords, each, echo, fixed, list, text, u16, u32, u8, words } = field
+const { bits, bytes, countOf, doubleWords, each, echo, fieldAt, fixed, list, text, u16, u32, u8, words } = field
 const codes = ['binary', 'ascii'] as const
 
 /** Without the types of the declaration, as a program without types calls it. */
@@ -276,6 +276,39 @@ describe('reading refuses', () => {
     ['double words that are not there', { n: countOf('a', 4), a: doubleWords('n') }, 'FFFFFFFF0', 'TRUNCATED'],
   ])('in ASCII code %s', (_what, shape, characters, code) => {
     expect(() => decode(shape, readerOf('ascii', Buffer.from(characters)))).toThrow(expect.objectContaining({ code }))
+  })
+
+  const readBlock = {
+    shape: commands.readBlock.request,
+    message: { wordBlocks: [{ head: D0, points: 1 }], bitBlocks: [] },
+  }
+  const points = { shape: { points: u8() }, message: { points: 1 } }
+  test.each<[string, Shape, string, string | undefined, Context | undefined]>([
+    ['a number', { a: u8(), b: u16() }, '0001', 'b', undefined],
+    ['a count', { n: countOf('a', 1, { max: 1 }), a: words('n') }, '02', 'n', undefined],
+    ['an array', { n: countOf('a', 1), a: words('n') }, '020100', 'a', undefined],
+    ['a fixed number', { a: u8(), b: fixed(5, 1) }, '0006', 'b', undefined],
+    [
+      'in an element',
+      { n: countOf('a', 1), a: list('n', { b: u8(), c: u8({ max: 3 }) }) },
+      '0200030004',
+      'a.1.c',
+      undefined,
+    ],
+    ['a device that is cut', commands.readRandom.request, '0200640000a86400', 'words.1.device', undefined],
+    ['a device nobody knows', commands.readRandom.request, '010064000001', 'words.0.device', undefined],
+    ['what belongs to an element of the request', commands.readBlock.response, '01', 'wordBlocks.0', readBlock],
+    ['what repeats the request', { a: echo('points') }, '02', 'a', points],
+    ['bytes behind the message are in none', { a: u8() }, '0102', undefined, undefined],
+  ])('the error names the field: %s', (_what, shape, hex, path, context) => {
+    const reader = readerOf('binary', Buffer.from(hex, 'hex'))
+    const all = () => {
+      decode(shape, reader, context)
+      reader.end()
+    }
+    const place = path === undefined ? ': ' : ` (${path}): `
+    expect(all).toThrow(expect.objectContaining({ field: path, message: expect.stringContaining(place) }))
+    if (path !== undefined) expect(fieldAt(shape, path)).toBeDefined()
   })
 
   test('0 where the field is too narrow for its highest number', () => {
