@@ -175,30 +175,31 @@ describe.each(everyLink)('$frame by $kind', (link) => {
       bench.plc.script = (asked) => {
         answer = asked.reply
       }
-      const [inFlight, first, second, third] = [bench.read(0), bench.read(1), bench.write(2, 1), bench.write(3, 1)]
+      const reads = [bench.read(0), bench.read(1), bench.read(2), bench.read(3)]
       await bench.settle()
-      expect([inFlight.told, first.told, second.told, third.told]).toEqual([
-        'pending',
-        'pending',
-        'pending',
-        'QUEUE_FULL notSent',
-      ])
-      expect(third.error?.message).toContain('2 requests are waiting already. Ask less often, or raise queueLimit.')
-      expect(bench.connection.statistics).toMatchObject({ queued: 2, inFlight: 1, requests: 3 })
+      expect(reads.map(({ told }) => told)).toEqual(['pending', 'pending', 'pending', 'QUEUE_FULL notSent'])
+      expect(reads[3]?.error?.message).toContain('2 requests are waiting already. Ask less often, or raise queueLimit.')
+      // Reads that fill the queue keep no write out: there is as much room again.
+      const writes = [bench.write(4, 1), bench.write(5, 1), bench.write(6, 1)]
+      await bench.settle()
+      expect(writes.map(({ told }) => told)).toEqual(['pending', 'pending', 'QUEUE_FULL notSent'])
+      expect(bench.connection.statistics).toMatchObject({ queued: 4, inFlight: 1, requests: 5 })
       bench.plc.script = (asked) => asked.reply()
       answer()
       await bench.settle()
       // What changes the PLC goes ahead of what only asks.
-      expect(bench.plc.asked).toEqual(['readWords 0', 'writeWords 2', 'readWords 1'])
-      const after = bench.read(4)
+      expect(bench.plc.asked).toEqual(['readWords 0', 'writeWords 4', 'writeWords 5', 'readWords 1', 'readWords 2'])
+      const after = bench.read(7)
       await bench.settle()
-      expect(after.told).toEqual({ values: [4] })
+      expect(after.told).toEqual({ values: [7] })
     })
 
     test('is bounded while connecting too', async () => {
       const bench = new Bench({ ...link, queueLimit: 3 })
       const reads = Array.from({ length: 5 }, (_, i) => bench.read(i))
+      const writes = Array.from({ length: 4 }, (_, i) => bench.write(i, 1))
       await bench.settle()
+      expect(writes.map(({ error }) => error?.code)).toEqual([undefined, undefined, undefined, 'QUEUE_FULL'])
       expect(reads.map(({ settled, error }) => [settled, error?.code])).toEqual([
         [1, undefined],
         [1, undefined],

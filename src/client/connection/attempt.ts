@@ -70,6 +70,11 @@ export class Attempt implements LineUser {
     return this.#opening.isGoingOn ? 0 : this.#line.counts(this).queued
   }
 
+  /** Of what is queued, that which changes the PLC. */
+  get queuedChanges(): number {
+    return this.#opening.isGoingOn ? 0 : this.#line.queuedChanges(this)
+  }
+
   get inFlight(): number {
     return this.#line.counts(this).inFlight
   }

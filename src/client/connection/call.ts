@@ -136,8 +136,7 @@ export class Call implements Job {
 
   /** What changes the PLC does not wait behind what only asks. */
   get priority(): Priority {
-    const { effect } = this.exchange
-    return effect === 'read' || effect === 'diagnose' ? 'read' : 'control'
+    return isChange(this.exchange) ? 'control' : 'read'
   }
 
   write(serial: number): Buffer {
@@ -189,4 +188,9 @@ export class Call implements Job {
     this.#unwatch?.()
     return true
   }
+}
+
+/** Whether it does something to the PLC. */
+export function isChange({ effect }: Exchange<unknown>): boolean {
+  return effect !== 'read' && effect !== 'diagnose'
 }

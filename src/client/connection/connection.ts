@@ -5,7 +5,7 @@ import { type Exchange, type ResponseFrame, RoundTrips } from '../../link/link'
 import type { Clock } from '../../transport/clock'
 import { Alarm } from './alarm'
 import { Attempt, type AttemptOwner, takeAsDone } from './attempt'
-import { type BoundOptions, Call, type CallOptions, optionProblem, type Settle } from './call'
+import { type BoundOptions, Call, type CallOptions, isChange, optionProblem, type Settle } from './call'
 import type { ConnectionOptions, ConnectionState, TracedFrame } from './connection-options'
 import * as failure from './failure'
 import type { Line } from './line'
@@ -139,13 +139,22 @@ export class Connection {
     this.#guard(() => this.#start(call))
   }
 
-  #refusalOf({ title }: Exchange<unknown>, signal: AbortSignal | undefined): PlcError | undefined {
+  #refusalOf(exchange: Exchange<unknown>, signal: AbortSignal | undefined): PlcError | undefined {
+    const { title } = exchange
     const { name, hopeful, error } = this.#supervisor
     if (name === 'closed' || this.#finishing !== undefined) return failure.closedBeforeSending(title)
     if (signal?.aborted === true) return failure.abortedBeforeSending(title, signal.reason)
     if (name !== 'connected' && !hopeful) return this.#offline(title, error)
-    const waiting = this.#waiting()
-    return waiting < this.#options.queueLimit ? undefined : failure.queueFull(title, waiting)
+    return this.#hasRoom(exchange) ? undefined : failure.queueFull(title, this.#waiting())
+  }
+
+  /** Reads may fill the queue; what changes the PLC has as much room beside them. */
+  #hasRoom(exchange: Exchange<unknown>): boolean {
+    const { queueLimit } = this.#options
+    if (this.#waiting() < queueLimit) return true
+    if (!isChange(exchange)) return false
+    const held = this.#held.filter(({ priority }) => priority === 'control').length
+    return held + (this.#attempt?.queuedChanges ?? 0) < queueLimit
   }
 
   #offline(title: string, error: PlcError | undefined): ConnectionError {

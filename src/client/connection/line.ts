@@ -119,6 +119,11 @@ export class Line {
     return session.counts((call) => call.plc === user)
   }
 
+  /** Requests of this user that wait for their turn and change the PLC. */
+  queuedChanges(user: LineUser): number {
+    return this.#carrier?.session?.counts((call) => call.plc === user && call.priority === 'control').queued ?? 0
+  }
+
   #userOf({ plc }: Call): LineUser | undefined {
     for (const user of this.#users) if (user === plc) return user
     return undefined

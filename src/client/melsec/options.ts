@@ -68,7 +68,7 @@ export interface MelsecClientOptions {
   readonly connectTimeout?: number
   /** Requests in flight at once; 1. More only with 4E over UDP, up to the profile's bound. */
   readonly inFlight?: number
-  /** Requests that may wait; 256. One more is refused with `QUEUE_FULL`. */
+  /** Requests that may wait; 256. One more is refused with `QUEUE_FULL`; what changes the PLC has as much room again. */
   readonly queueLimit?: number
   /** Write commands are refused unless this is true. */
   readonly allowWrites?: boolean
