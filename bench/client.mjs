@@ -75,9 +75,9 @@ async function bytesOf(client, call) {
 
 const COLUMNS = ['CPU us/call', 'calls/s', 'of bare', 'CPU ratio']
 
-async function compareWithBare(bare, name, alternatives) {
+async function compareWithBare(bare, name, alternatives, how) {
   const calls = Object.fromEntries(Object.entries(alternatives).map(([what, { call }]) => [what, call]))
-  const cost = await compare({ 'bare socket': bare.exchange, ...calls })
+  const cost = await compare({ 'bare socket': bare.exchange, ...calls }, how)
   bare.close()
   for (const [what, { cpu, wall, cpuRatio, speedRatio }] of Object.entries(cost)) {
     const ratios = what === 'bare socket' ? [] : [speedRatio.toFixed(2), cpuRatio.toFixed(2)]
@@ -108,7 +108,7 @@ async function benchTcp(port, code, { withBlocks }) {
 const SCATTERED = Array.from({ length: 100 }, (_, i) => `D${i * 150}`)
 
 /** Without a serial number an answer is told from earlier ones by its port, or, where that is fixed, by a self test. */
-async function benchUdp(port) {
+async function benchUdp(port, what, how) {
   const options = { host: HOST, port, profile: 'iq-r', transport: 'udp' }
   const localPort = await freePort()
   const clients = {
@@ -117,11 +117,11 @@ async function benchUdp(port) {
   }
   try {
     for (const client of Object.values(clients)) await client.connect()
-    title('Loopback UDP, 3E binary, one word', ...COLUMNS)
+    title(`Loopback UDP, 3E binary, one word, ${what}`, ...COLUMNS)
     const [first] = Object.values(clients)
     const bare = await bareUdp(port, await bytesOf(first, () => first.read('D100')))
     const alternatives = Object.entries(clients).map(([name, client]) => [name, { call: () => client.read('D100') }])
-    await compareWithBare(bare, 'one word', Object.fromEntries(alternatives))
+    await compareWithBare(bare, 'one word', Object.fromEntries(alternatives), how)
   } finally {
     for (const client of Object.values(clients)) await client.close()
   }
@@ -142,7 +142,8 @@ export async function benchClient() {
   try {
     await benchTcp(server.ports.tcp, 'binary', { withBlocks: true })
     await benchTcp(server.ports.tcp, 'ascii', { withBlocks: false })
-    await benchUdp(server.ports.udp)
+    await benchUdp(server.ports.udp, 'answered at once')
+    await benchUdp(server.ports.slow, 'answered after 2 ms', { rounds: 9, calls: 60 })
   } finally {
     server.stop()
   }

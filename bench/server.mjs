@@ -78,6 +78,17 @@ const tcp = createServer((socket) => {
 const udp = createSocket('udp4')
 udp.on('message', (request, { port, address }) => udp.send(answerTo(request), port, address))
 
+/** A PLC whose answers take a scan. */
+const SCAN = 2
+const slow = createSocket('udp4')
+slow.on('message', (request, { port, address }) => {
+  setTimeout(() => slow.send(answerTo(request), port, address), SCAN)
+})
+
 tcp.listen(0, '127.0.0.1', () => {
-  udp.bind(0, '127.0.0.1', () => process.send({ tcp: tcp.address().port, udp: udp.address().port }))
+  udp.bind(0, '127.0.0.1', () => {
+    slow.bind(0, '127.0.0.1', () => {
+      process.send({ tcp: tcp.address().port, udp: udp.address().port, slow: slow.address().port })
+    })
+  })
 })

@@ -160,6 +160,22 @@ describe.each(['3E', '1E'] as const)('%s over UDP', (frame) => {
     expect(plc.asked.map(({ what }) => what)).not.toContain('D2000=1')
   })
 
+  test('from ports of its own: every answer again and again, later, and no value is another one', async () => {
+    const { plc, client } = await line(frame)
+    const earlier: (() => void)[] = []
+    plc.script = (_what, reply) => {
+      // To the ports they were asked from, before and behind the answer of this one.
+      for (const again of earlier.slice(-20)) again()
+      reply()
+      for (const again of earlier.slice(-20)) again()
+      earlier.push(reply)
+    }
+    for (let number = 1; number <= 150; number++) expect(await client.read(`D${number}`)).toBe(number)
+    expect(await told(client.write('D5000', 7))).toBe('END_CODE refused')
+    expect(await told(client.write('D7', 7))).toBe('done')
+    expect(new Set(plc.asked.map(({ port }) => port)).size).toBe(plc.asked.length)
+  })
+
   test('from a fixed port: an answer later than everything is not taken for the next one', async () => {
     const { plc, client } = await line(frame, { localPort: await freePort(), timeout: 60 })
     // In order, as a PLC answers: what is held back comes before all that was asked behind it.

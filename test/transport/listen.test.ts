@@ -8,7 +8,7 @@ import { tcpTransport } from '../../src/transport/tcp'
 import type { Listener, ListenOptions, ServerConnection } from '../../src/transport/transport'
 import { udpTransport } from '../../src/transport/udp'
 import { manualClock } from '../support/manual-clock'
-import { openHandles, record, settle } from './recorder'
+import { openSockets, record, settle } from './recorder'
 
 const host = '127.0.0.1'
 const cleanups: (() => unknown)[] = []
@@ -98,7 +98,7 @@ describe.each(kinds)('listening on $kind', ({ kind, listen, transport }) => {
 
   test('close() ends every connection, tells each once, frees the port and leaves no handle', async () => {
     await settle()
-    const before = openHandles()
+    const before = openSockets()
     const { listener, log } = await echoServer(listen)
     const clients = [client(listener), client(listener)]
     for (const recorder of clients) {
@@ -115,7 +115,7 @@ describe.each(kinds)('listening on $kind', ({ kind, listen, transport }) => {
     const again = await listen({ port: listener.port }, () => {})
     await again.close()
     await settle()
-    expect(openHandles()).toEqual(before)
+    expect(openSockets()).toEqual(before)
   })
 
   test('after its own close() a connection receives and sends nothing and is told once', async () => {

@@ -17,7 +17,10 @@ export interface Recorder {
   bytes(count: number): Promise<Buffer>
 }
 
-export function record(transport: Transport, act: { onOpened?: () => void; onReceived?: () => void } = {}): Recorder {
+export function record(
+  transport: Transport,
+  act: { onOpened?: () => void; onRenewed?: () => void; onReceived?: () => void } = {},
+): Recorder {
   const calls: string[] = []
   const chunks: Buffer[] = []
   const renewals: (() => void)[] = []
@@ -40,6 +43,7 @@ export function record(transport: Transport, act: { onOpened?: () => void; onRec
     renewed() {
       calls.push('renewed')
       for (const resolve of renewals.splice(0)) resolve()
+      act.onRenewed?.()
     },
     received(bytes) {
       calls.push('received')
@@ -114,4 +118,9 @@ export async function freePort(): Promise<number> {
 /** Sockets and timers that keep the process busy. */
 export function openHandles(): string[] {
   return process.getActiveResourcesInfo().filter((name) => /TCP|UDP|Timeout/.test(name))
+}
+
+/** As `openHandles`, for what sets no timers: those of the test runner come and go. */
+export function openSockets(): string[] {
+  return openHandles().filter((name) => name !== 'Timeout')
 }

@@ -3,7 +3,7 @@ import { once } from 'node:events'
 import { afterEach, describe, expect, jest, test } from '@jest/globals'
 import { ConnectionError, RequestError } from '../../src/errors'
 import { type UdpOptions, udpTransport } from '../../src/transport/udp'
-import { openHandles, record, settle } from './recorder'
+import { openSockets, record, settle } from './recorder'
 
 const host = '127.0.0.1'
 const cleanups: (() => unknown)[] = []
@@ -355,10 +355,152 @@ describe('renewing', () => {
   })
 })
 
+describe('the port of the next renewal', () => {
+  /** Every socket that is connected from now on, in this order, and how many of them are not closed. */
+  function sockets() {
+    const all: Socket[] = []
+    const open = new Set<Socket>()
+    const connect = Socket.prototype.connect
+    const spy = jest.spyOn(Socket.prototype, 'connect').mockImplementation(function (this: Socket, ...args) {
+      all.push(this)
+      open.add(this)
+      this.once('close', () => open.delete(this))
+      return connect.apply(this, args)
+    })
+    cleanups.push(() => spy.mockRestore())
+    return { all, open }
+  }
+
+  /** A transport that was renewed once and has sent since: its next port is there. */
+  async function renewedOnce() {
+    const { all, open: notClosed } = sockets()
+    const plc = await station()
+    echo(plc.socket)
+    const client = open({ port: plc.port })
+    await client.opened
+    await client.renew()
+    client.transport.send(Buffer.from('1'))
+    await client.bytes(1)
+    await settle()
+    return { plc, client, all, notClosed }
+  }
+
+  test('is opened behind what is sent, so that the renewal is over at once', async () => {
+    const { plc, client, all } = await renewedOnce()
+    expect(all).toHaveLength(3)
+    const before = localPort(client.transport.description)
+    client.transport.renew()
+    expect(client.transport.ready).toBe(true)
+    expect(client.calls).toEqual(['opened', 'renewed', 'received', 'renewed'])
+    const after = localPort(client.transport.description)
+    expect(after).not.toBe(before)
+    client.transport.send(Buffer.from('2'))
+    await client.bytes(2)
+    expect(plc.received.map(({ port }) => port).slice(-2)).toEqual([before, after])
+  })
+
+  test('is not opened where nothing was ever renewed', async () => {
+    const { all } = sockets()
+    const plc = await station()
+    echo(plc.socket)
+    const client = open({ port: plc.port })
+    await client.opened
+    for (const text of ['1', '2', '3']) client.transport.send(Buffer.from(text))
+    await client.bytes(3)
+    await settle()
+    expect(all).toHaveLength(1)
+  })
+
+  test('takes nothing before it is the one that is used, from whomever it comes', async () => {
+    const { plc, client, all } = await renewedOnce()
+    const next = all[2]?.address().port ?? 0
+    const foreign = await station()
+    for (const sender of [plc.socket, foreign.socket]) {
+      await new Promise<void>((resolve) => sender.send('too early', next, host, () => resolve()))
+    }
+    await settle()
+    client.transport.renew()
+    expect(localPort(client.transport.description)).toBe(next)
+    foreign.socket.send('foreign', next, host)
+    client.transport.send(Buffer.from('2'))
+    await client.bytes(2)
+    await settle()
+    expect(client.chunks.map(String)).toEqual(['1', '2'])
+  })
+
+  test('an answer to the port before it does not arrive', async () => {
+    const { plc, client } = await renewedOnce()
+    const old = localPort(client.transport.description)
+    await new Promise<void>((resolve) => {
+      plc.socket.send('late', old, host, () => {
+        // In the receive queue of the old socket by now.
+        client.transport.renew()
+        resolve()
+      })
+    })
+    client.transport.send(Buffer.from('2'))
+    await client.bytes(2)
+    await new Promise<void>((resolve) => plc.socket.send('later', old, host, () => resolve()))
+    await settle()
+    expect(client.chunks.map(String)).toEqual(['1', '2'])
+  })
+
+  test('what goes wrong with it disturbs nobody, and another is made', async () => {
+    const { client, all } = await renewedOnce()
+    all[2]?.emit('error', new Error('out of sockets'))
+    client.transport.send(Buffer.from('2'))
+    await client.bytes(2)
+    await settle()
+    expect(all).toHaveLength(4)
+    client.transport.renew()
+    expect(client.transport.ready).toBe(true)
+    client.transport.send(Buffer.from('3'))
+    await client.bytes(3)
+    expect(client.chunks.map(String)).toEqual(['1', '2', '3'])
+  })
+
+  test('there are never more than two sockets, and none after the end', async () => {
+    const { client, notClosed } = await renewedOnce()
+    for (let round = 0; round < 50; round++) {
+      await client.renew()
+      client.transport.send(Buffer.from('x'))
+      await client.bytes(round + 2)
+      await settle()
+      expect(notClosed.size).toBeLessThanOrEqual(2)
+    }
+    client.transport.close()
+    await settle()
+    expect(notClosed.size).toBe(0)
+  })
+
+  test('who closes while it is told that it can send leaves none', async () => {
+    const { open: notClosed } = sockets()
+    const plc = await station()
+    echo(plc.socket)
+    let renewals = 0
+    const transport = udpTransport({ host, port: plc.port })()
+    const client = record(transport, {
+      onRenewed: () => {
+        renewals += 1
+        if (renewals === 2) transport.close()
+      },
+    })
+    await client.opened
+    await client.renew()
+    transport.send(Buffer.from('1'))
+    await client.bytes(1)
+    await settle()
+    transport.renew()
+    expect(renewals).toBe(2)
+    await settle()
+    expect(notClosed.size).toBe(0)
+  })
+})
+
 test('1000 transports opened, renewed and closed leave no handle', async () => {
   const { port, close } = await station()
   await settle()
-  const before = openHandles()
+  const before = openSockets()
   for (let i = 0; i < 1000; i++) {
     const client = record(udpTransport({ host, port })())
     if (i % 4 > 0) await client.opened
@@ -368,6 +510,6 @@ test('1000 transports opened, renewed and closed leave no handle', async () => {
     client.transport.close()
   }
   await settle()
-  expect(openHandles()).toEqual(before)
+  expect(openSockets()).toEqual(before)
   close()
 })
