@@ -86,6 +86,7 @@ export {
   type PlcErrorData,
   ProtocolError,
   type ProtocolErrorCode,
+  type ProtocolErrorDetail,
   RequestError,
   type RequestErrorCode,
   TimeoutError,
@@ -122,7 +123,7 @@ export type { RemedyName } from './melsec/end-codes/remedies'
 export type { Texts } from './melsec/end-codes/texts'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
 export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file/time'
-export { moduleIoNumbers, type Route } from './melsec/frame/route'
+export { type ModuleIoNumber, moduleIoNumbers, type Route } from './melsec/frame/route'
 export { type Model, modelCodes, modelOf, type Series } from './melsec/model-code'
 export { profiles, resolveProfile } from './melsec/profiles/info'
 export {

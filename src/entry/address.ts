@@ -30,9 +30,10 @@ export {
   formatType,
   type PlcValue,
   parseType,
+  type TypeInfo,
   type TypeName,
   typeNames,
   type ValueOf,
   type ValueType,
-  valueTypes,
 } from '../value/type'
+export { valueTypes } from '../value/type-info'

@@ -23,16 +23,18 @@ export interface ChoiceParameter {
 /** A parameter of a fault: a number, or one of some texts. */
 export type FaultParameter = NumberParameter | ChoiceParameter
 
-interface FaultRow {
+/** What is known of a kind of fault. */
+export interface FaultDescription {
+  /** What happens, in English. */
   readonly title: string
+  /** What can be said beside the kind, by name. */
   readonly parameters: Readonly<Record<string, FaultParameter>>
 }
 
 const pause = { title: 'ms between the pieces', min: 0, default: 5 } as const
 const how = { title: 'FIN, or RST that loses what is under way', oneOf: ['close', 'reset'], default: 'reset' } as const
 
-/** `times` and the commands a fault is for are in `FaultAim`. On UDP a piece is a datagram. */
-export const faultKinds = {
+const rows = {
   silence: { title: 'The request is lost: not carried out, not answered', parameters: {} },
   drop: { title: 'The answer is lost: carried out, not answered', parameters: {} },
   delay: {
@@ -105,11 +107,16 @@ export const faultKinds = {
     title: 'A connection is accepted and ended at once, as when all entries are taken',
     parameters: { how: { ...how, default: 'close' } },
   },
-} as const satisfies Readonly<Record<string, FaultRow>>
+} as const satisfies Readonly<Record<string, FaultDescription>>
 
-type Kinds = typeof faultKinds
+type Kinds = typeof rows
 /** Ways in which a simulated PLC can misbehave. */
 export type FaultKind = keyof Kinds
+
+/**
+ * Every kind of fault. `times` and the commands a fault is for are in `FaultAim`. On UDP a piece is a datagram.
+ */
+export const faultKinds: Readonly<Record<FaultKind, FaultDescription>> = rows
 
 type ValueOfParameter<P> = P extends { readonly oneOf: readonly (infer T)[] } ? T : number
 type Parameters<K extends FaultKind> = Kinds[K]['parameters']

@@ -5,6 +5,7 @@ export type { LoggedError } from './error-log'
 export type { FaultAction } from './fault-kinds'
 export {
   type ChoiceParameter,
+  type FaultDescription,
   type FaultKind,
   type FaultParameter,
   faultKinds,

@@ -6,8 +6,8 @@
  */
 import { RequestError } from '../errors'
 
-/** One row of {@link valueTypes}. */
-interface TypeRow {
+/** What is known of a type. */
+export interface TypeInfo {
   /**
    * How the value is kept: one bit, a whole number (JavaScript number), a 64-bit whole number (BigInt), a binary coded
    * decimal (number), a floating-point number, or text.
@@ -17,6 +17,7 @@ interface TypeRow {
   readonly words: 0 | 1 | 2 | 4
   /** Smallest and largest value, for `integer`, `long` and `bcd`. */
   readonly min?: number | bigint
+  /** See `min`. */
   readonly max?: number | bigint
   /** Data type as the label editor of GX Works3 shows it, where it has the type. Accepted by `parseType`. */
   readonly gxWorks?: string
@@ -107,11 +108,11 @@ export const valueTypes = {
     gxWorks: 'String [Unicode]',
     translated: ['文字列[Unicode]', '字符串[Unicode]', '字串[Unicode]'],
   },
-} as const satisfies Record<string, TypeRow>
+} as const satisfies Record<string, TypeInfo>
 
 /** Name of a type. */
 export type TypeName = keyof typeof valueTypes
-type Kind = TypeRow['kind']
+type Kind = TypeInfo['kind']
 /** The names of the types of one or several kinds. */
 export type TypeNameOf<K extends Kind> = {
   [N in TypeName]: (typeof valueTypes)[N]['kind'] extends K ? N : never
@@ -211,7 +212,7 @@ function isTypeName(name: string): name is TypeName {
 /** All names, in the table's order, e.g. for a selection list. */
 export const typeNames: readonly TypeName[] = Object.keys(valueTypes).filter(isTypeName)
 
-function rowOf(name: TypeName): TypeRow {
+function rowOf(name: TypeName): TypeInfo {
   return valueTypes[name]
 }
 

@@ -31,8 +31,18 @@ export type RouteToStation = Pick<Route, 'network' | 'station' | 'extensionStati
 /** The station the connection goes to, and its CPU. */
 export const ownStation: Route = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0 }
 
-/** Request destination module I/O numbers that have a name (SLMP p. 21). `name` is what the command line takes. */
-export const moduleIoNumbers = [
+/** A module I/O number with a name. */
+export interface ModuleIoNumber {
+  /** What the command line takes, e.g. `cpu1`. */
+  readonly name: string
+  /** What it is, in English. */
+  readonly title: string
+  /** The number, for `route.moduleIo`. */
+  readonly number: number
+}
+
+/** Request destination module I/O numbers that have a name (SLMP p. 21). */
+export const moduleIoNumbers: readonly ModuleIoNumber[] = [
   { name: 'own', title: 'own station, control CPU', number: 0x3ff },
   { name: 'cpu1', title: 'multiple CPU No. 1, remote head No. 1', number: 0x3e0 },
   { name: 'cpu2', title: 'multiple CPU No. 2, remote head No. 2', number: 0x3e1 },
@@ -42,7 +52,7 @@ export const moduleIoNumbers = [
   { name: 'standby', title: 'standby system CPU', number: 0x3d1 },
   { name: 'systemA', title: 'system A CPU', number: 0x3d2 },
   { name: 'systemB', title: 'system B CPU', number: 0x3d3 },
-] as const
+]
 
 /** Last start I/O number / 16 of a serial module that multidrop stations hang on. */
 const LAST_MULTIDROP_MODULE = 0x1ff
