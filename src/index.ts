@@ -47,6 +47,7 @@ export type {
   LabelWriteResult,
 } from './client/label/labels'
 export type { BufferMemory } from './client/melsec/buffer-memory'
+export type { MelsecClient } from './client/melsec/client'
 export type { ClientEvents, OnDemand, UnsolicitedFrame } from './client/melsec/client-events'
 export type {
   ClearMode,
@@ -58,13 +59,14 @@ export type {
   RunOptions,
   StopOptions,
 } from './client/melsec/control'
-export { createMelsecClient, MelsecClient } from './client/melsec/melsec-client'
+export { createMelsecClient } from './client/melsec/melsec-client'
 export type { RequestExplanation } from './client/melsec/named-request'
 export type { MelsecClientOptions } from './client/melsec/options'
 export type { ProbeKind } from './client/melsec/probes'
 export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
+export type { PlcClient, PlcEvents } from './client/plan/plc-client'
 export type { PlanDescription, RequestDescription } from './client/plan/request'
 export type { WriteCallOptions, WriteOptions } from './client/plan/write'
 export type { DataCode, Declaration, Effect, MessageInput, MessageOf, Shape } from './codec/codec'

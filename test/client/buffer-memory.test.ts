@@ -1,6 +1,7 @@
 // Buffer memory of the connected module and of MELSEC-Q modules, over loopback TCP in both codes.
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
+import type { MelsecClient } from '../../src/client/melsec/client'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { PlcError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'

@@ -3,7 +3,8 @@
  * refuses everything for another one: what it carries out was sent to it.
  */
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
+import type { MelsecClient } from '../../src/client/melsec/client'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { EndCodeError } from '../../src/errors'
 import type { Command } from '../../src/melsec/commands/command'

@@ -1,6 +1,7 @@
 // Commands by name, with messages as JSON, through sockets.
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
+import type { MelsecClient } from '../../src/client/melsec/client'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { PlcError } from '../../src/errors'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'

@@ -1,8 +1,9 @@
 /** The client over 1E frames against the simulated iQ-F: typed items, control, and what 1E cannot do. */
 import { describe, expect, test } from '@jest/globals'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { RequestError } from '../../src/errors'
-import { MelsecClient, type TraceEntry } from '../../src/index'
+import type { MelsecClient, TraceEntry } from '../../src/index'
 import { commands } from '../../src/melsec/commands/commands'
 import { createPlcSimulator, type PlcSimulator } from '../../src/simulator/server'
 
@@ -21,7 +22,7 @@ async function joined(
   const plc = createPlcSimulator({ profile: 'iq-f', code, frames: ['1E'] })
   await plc.listen()
   const port = plc[options.transport ?? 'tcp']?.port ?? 0
-  const client = new MelsecClient({
+  const client = createMelsecClient({
     host: '127.0.0.1',
     port,
     profile: 'iq-f',
@@ -122,7 +123,7 @@ describe.each(CODES)('FX3, %s', (code) => {
     const plc = createPlcSimulator({ profile: 'fx3', code })
     await plc.listen()
     const port = plc.tcp?.port ?? 0
-    const client = new MelsecClient({
+    const client = createMelsecClient({
       host: '127.0.0.1',
       port,
       profile: 'fx3',
@@ -235,7 +236,7 @@ describe('what 1E cannot do is refused before anything is sent', () => {
 
   test('families without it, and other stations', () => {
     const open = (options: Partial<MelsecClientOptions>) => () =>
-      new MelsecClient({ host: 'plc', port: 5007, frame: '1E', ...options })
+      createMelsecClient({ host: 'plc', port: 5007, frame: '1E', ...options })
     expect(open({ profile: 'iq-r' })).toThrow('no 1E frame')
     expect(open({ profile: 'iq-f', route: { network: 1, station: 3 } })).toThrow('connected station')
     expect(open({ profile: 'iq-f', inFlight: 2 })).toThrow('inFlight')

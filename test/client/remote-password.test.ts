@@ -1,7 +1,8 @@
 // The remote password of a client: unlocked before everything else, locked at the end, a wrong one sent once, never shown.
 import { inspect } from 'node:util'
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
+import type { MelsecClient } from '../../src/client/melsec/client'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { ConnectionError, EndCodeError, PlcError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'

@@ -1,6 +1,7 @@
 // The file commands over loopback TCP, as clients send them: procedures and refusals of the manual.
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
+import type { MelsecClient } from '../../src/client/melsec/client'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { EndCodeError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'

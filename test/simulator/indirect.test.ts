@@ -1,6 +1,7 @@
 // Indirect specification through sockets: what stands in two words says which device is meant.
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient } from '../../src/client/melsec/melsec-client'
+import type { MelsecClient } from '../../src/client/melsec/client'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import { PlcError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import type { ProfileId } from '../../src/melsec/profiles/profile'

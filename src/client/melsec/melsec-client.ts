@@ -40,6 +40,7 @@ import type { ReadPlan, WritePlan } from '../plan/plans'
 import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
+import type { MelsecClient } from './client'
 import type { ClientEvents } from './client-events'
 import { type Control, controlOf, type Identity, identify, selfTestOf } from './control'
 import { explainSilence } from './diagnosis'
@@ -74,16 +75,7 @@ const EVENTS = {
   unsolicited: true,
 } as const satisfies Record<keyof ClientEvents, true>
 
-/**
- * A client of one MELSEC PLC over SLMP (3E or 4E frame). It connects at the first call, stays connected in the
- * background, and reconnects by itself until `close()`.
- *
- * Every rejection is a `PlcError`: its `code` says what, its `outcome` whether the PLC may have carried it out.
- * @example
- * const plc = createMelsecClient({ host: '192.168.3.39', port: 5007, profile: 'iq-r' })
- * const level = await plc.read('D100:REAL')
- */
-export class MelsecClient {
+export class MelsecPlcClient implements MelsecClient {
   readonly #settings: Settings
   readonly #protocol: ClientProtocol
   readonly #connection: Connection
@@ -95,15 +87,10 @@ export class MelsecClient {
   readonly #items: ItemAccess
   readonly #files: FileAccess
   readonly #password: RemotePassword
-  /** As given, without the password. */
   readonly options: Omit<MelsecClientOptions, 'password'>
-  /** Remote RUN, STOP, PAUSE, latch clear and reset. Needs `allowControl`. */
   readonly control: Control
-  /** Global labels by name (iQ-R). Writing needs `allowWrites`. */
   readonly labels: Labels
-  /** Buffer memory of the connected module itself: Memory (0613, 1613). */
   readonly memory: BufferMemory
-  /** Files on the drives of the CPU. Everything but reading needs `allowWrites`. */
   readonly files: Files
 
   constructor(given: MelsecClientOptions) {
@@ -167,42 +154,32 @@ export class MelsecClient {
     this.files = this.#files
   }
 
-  /** The family of PLCs it speaks to, with the overrides merged in. */
   get profile(): ProfileInfo {
     return this.#settings.profile
   }
 
-  /** Data code in use: that of the options, else the profile's. */
   get code(): DataCode {
     return this.#settings.code
   }
 
-  /** How the connection is now; the event `state` tells each change. */
   get state(): ConnectionState {
     return this.#connection.state
   }
 
-  /** Counters and round-trip times since the client was made. */
   get statistics(): Statistics {
     return this.#connection.statistics
   }
 
-  /**
-   * Listens to an event; does not connect by itself, see `connect()`. @returns what ends it.
-   * @throws RequestError BAD_OPTION when there is no such event; of `onDemand` also when it could never come
-   */
   on<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
     if (event === 'onDemand') checkOnDemand(this.#protocol, this.#settings, this.options)
     return this.#listeners.on(event, listener)
   }
 
-  /** As `on`, for the next event only. @returns what ends it before. @throws RequestError BAD_OPTION as `on` does */
   once<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): () => void {
     if (event === 'onDemand') checkOnDemand(this.#protocol, this.#settings, this.options)
     return this.#listeners.once(event, listener)
   }
 
-  /** Ends what `on` or `once` began with this function. @throws RequestError BAD_OPTION when there is no such event */
   off<E extends keyof ClientEvents>(event: E, listener: (event: ClientEvents[E]) => void): void {
     this.#listeners.off(event, listener)
   }
@@ -226,12 +203,10 @@ export class MelsecClient {
     this.#listeners.tell('state', state)
   }
 
-  /** Connects now instead of at the first call. Resolves when the PLC has answered. */
   async connect(options: CallOptions = {}): Promise<void> {
     return this.#connection.connect(callOptionsOf(options))
   }
 
-  /** Ends the connection and every call under way. The client cannot be used again. */
   async close(): Promise<void> {
     const released = this.#files.release()
     if (released !== undefined) await this.#soon(released)
@@ -240,7 +215,6 @@ export class MelsecClient {
     else await this.#connection.finish(lock, CLOSING_TIME)
   }
 
-  /** `await using plc = createMelsecClient(...)`: `close()` at the end of the block. */
   async [asyncDispose](): Promise<void> {
     await this.close()
   }
@@ -251,23 +225,12 @@ export class MelsecClient {
     return deadline.wait(work, 'Closing').catch(() => {})
   }
 
-  /**
-   * Another remote password, from the next connection on. After a refusal this is what makes the client try again.
-   * `undefined`: the PLC has none. @throws RequestError BAD_OPTION
-   */
   setPassword(password: string | undefined): void {
     this.#password.set(password)
     this.#connection.retry()
   }
 
-  /**
-   * Reads one item: its value. An object with a text `address` is one item; to `readEach` and `readValues` it is many, of
-   * which one is named address.
-   * @throws PlcError what went wrong
-   * @example await plc.read('D100:REAL')
-   */
   read<const I extends Item>(item: I, options?: CallOptions): Promise<ItemValue<I>>
-  /** Reads many items as `readEach`. @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' }) */
   read<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
   async read(items: Item | Items, options?: CallOptions): Promise<unknown> {
     if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
@@ -275,7 +238,6 @@ export class MelsecClient {
     return this.readEach(items, options)
   }
 
-  /** Reads many items in few requests, with a result for each: one that cannot be read does not hide the others. */
   readEach<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
   async readEach(items: Items, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return this.#items.prepare(items).run(options)
@@ -283,11 +245,6 @@ export class MelsecClient {
     return byName(names, await this.#named(names, items, options))
   }
 
-  /**
-   * Reads many items in few requests and gives plain values.
-   * @throws the first item's error when any item failed.
-   * @example const { level, temperature } = await plc.readValues({ level: 'D100:REAL', temperature: 'D102:REAL' })
-   */
   readValues<const L extends Items>(items: L, options?: CallOptions): Promise<ItemValues<L>>
   async readValues(items: Items, options?: CallOptions): Promise<unknown> {
     if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
@@ -299,10 +256,6 @@ export class MelsecClient {
     return nameResults(await this.#items.prepare(names.map((name) => items[name] as Item)).run(call), names)
   }
 
-  /**
-   * The requests that read these items: to look at (`describe()`), and to run again and again without parsing.
-   * Items that cannot be read keep their error as their result.
-   */
   plan<const L extends readonly Item[]>(items: L): ReadPlan<ItemResults<L>>
   plan(items: readonly Item[]): ReadPlan<unknown> {
     return this.#items.plan(items)
@@ -318,21 +271,14 @@ export class MelsecClient {
     })
   }
 
-  /** What reading the item will touch, for people and editors. @throws RequestError when it is not an item. */
   explain(item: Item): ItemExplanation {
     return this.#items.explain(item)
   }
 
-  /** Writes many items as `writeValues`. @example await plc.write({ 'D200:REAL': 71.5, M10: true }) */
   write<const L extends readonly Item[], A extends string>(
     values: WriteEntries<L> | ItemInputs<A>,
     options?: WriteCallOptions,
   ): Promise<void>
-  /**
-   * Writes one item. Needs `allowWrites`. When it resolves, it was written. A write of unknown outcome is never repeated.
-   * @throws PlcError what went wrong
-   * @example await plc.write('D200:REAL', 71.5)
-   */
   write<const I extends Item>(item: I, value: ItemInput<I>, options?: WriteCallOptions): Promise<void>
   async write(
     target: Item | WriteValues,
@@ -344,12 +290,6 @@ export class MelsecClient {
     if (result?.ok === false) throw result.error
   }
 
-  /**
-   * Writes many items, in their order. Needs `allowWrites`. When it resolves, everything was written. A write whose outcome
-   * is unknown is never repeated.
-   * @throws WriteError when anything was not written: its `results` say what became of each item
-   * @example await plc.writeValues({ 'D200:REAL': 71.5, M10: true })
-   */
   async writeValues<const L extends readonly Item[], A extends string>(
     values: WriteEntries<L> | ItemInputs<A>,
     options?: WriteCallOptions,
@@ -357,10 +297,6 @@ export class MelsecClient {
     checkAllWritten(await this.#items.write(entriesOf(values), options))
   }
 
-  /**
-   * Writes many items as `writeValues` does, with a result for each instead of an error. Look at each of them.
-   * @example const results = await plc.writeEach({ 'D200:REAL': 71.5, M10: true })
-   */
   writeEach<const L extends readonly Item[]>(
     entries: WriteEntries<L>,
     options?: WriteCallOptions,
@@ -371,24 +307,15 @@ export class MelsecClient {
     return isList(values) ? results : byName(Object.keys(values), results)
   }
 
-  /** The requests that write these values: to look at before they are run. */
   planWrite<const L extends readonly Item[]>(entries: WriteEntries<L>, options: WriteOptions = {}): WritePlan {
     return this.#items.planWrite(entries, options)
   }
 
-  /**
-   * Items that are registered in the PLC once and then read with a request that names none of them (0801, 0802).
-   * Where the profile has no monitor commands, Read Random is used instead and `note` says so.
-   */
   monitor<const L extends readonly Item[]>(items: L): Monitor<ItemResults<L>>
   monitor(items: readonly Item[]): Monitor<unknown> {
     return this.#items.monitor(items)
   }
 
-  /**
-   * Sends any declared command.
-   * @example await plc.request(commands.readWords, { head: { device: 'D', number: 100 }, points: 2 })
-   */
   async request<C extends Command>(
     command: C,
     message: RequestOf<C>,
@@ -405,17 +332,11 @@ export class MelsecClient {
     })
   }
 
-  /** How X, Y and W are numbered in addresses; without X and Y where nobody knows. */
   get notation(): Notation {
     const { xyRadix, wRadix, xyUnknown } = this.#settings
     return xyUnknown ? { wRadix } : { xyRadix, wRadix }
   }
 
-  /**
-   * Sends any declared command by its name or code, with its message as JSON: see `messageFromJson`. Execute Monitor also
-   * takes the message of its registration, which is sent before it.
-   * @example await plc.requestByName('readWords', { head: 'D100', points: 2 })   // { values: [..., ...] }
-   */
   async requestByName(
     name: string,
     message: unknown = {},
@@ -433,7 +354,6 @@ export class MelsecClient {
     })
   }
 
-  /** What `requestByName` would send. @throws RequestError for what it would refuse before sending, but not permissions */
   explainRequest(name: string, message: unknown = {}): RequestExplanation {
     const named = namedRequest(name, message, this.notation)
     this.#exchangesOf(named, {})
@@ -453,28 +373,20 @@ export class MelsecClient {
     if (effect === 'control' && !this.#settings.allowControl) throw notPermitted(title, 'allowControl')
   }
 
-  /** Who the PLC says it is, with what its model code means. */
   identify(options?: CallOptions): Promise<Identity> {
     return identify(this.#send, this.#settings.profile, this.#settings.wRadix, options)
   }
 
-  /** Sends characters 0-9, A-F (1 to 960) to the connected module and back. @returns ms from sending to the answer. */
   async selfTest(data?: string, options?: CallOptions): Promise<{ readonly roundTrip: number }> {
     const { deadline } = this.#call(options)
     const exchange = selfTestOf(this.#protocol, data)
     return { roundTrip: await this.#connection.roundTrip(exchange, deadline.options(exchange.title)) }
   }
 
-  /**
-   * Buffer memory of a MELSEC-Q module on the base: Extend Unit (0601, 1601). Nothing is sent yet.
-   * @throws RequestError BAD_OPTION when the module is not in the manual's table
-   * @example const [setting] = await plc.module('Q62DA', { startIo: 0x30 }).read(0x18, 1)
-   */
   module(model: string, place: ModulePlace): BufferMemory {
     return moduleOf(this.#send, extendUnitOf(model, place))
   }
 
-  /** Clears the error codes of the connected module and turns its error LED off. Needs `allowControl`. */
   async clearError(options?: CallOptions): Promise<void> {
     await this.#send(commands.clearError, {}, options)
   }
@@ -488,5 +400,5 @@ const ITEMS = 'Items to read are one item, a list of items, or an object of item
  * @example const plc = createMelsecClient({ host: '192.168.3.39', port: 5007, profile: 'iq-f' })
  */
 export function createMelsecClient(options: MelsecClientOptions): MelsecClient {
-  return new MelsecClient(options)
+  return new MelsecPlcClient(options)
 }
