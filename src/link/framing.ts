@@ -101,7 +101,7 @@ export interface Job extends Question, Scheduled {
 }
 
 /** How a job ended. */
-export type Outcome =
+export type JobEnd =
   | { readonly kind: 'answered'; readonly frame: ResponseFrame }
   | { readonly kind: 'timedOut'; readonly sent: boolean }
   | { readonly kind: 'disconnected'; readonly sent: boolean }
@@ -116,7 +116,7 @@ export type SessionEvent<J extends Job = Job> =
   | {
       readonly kind: 'done'
       readonly job: J
-      readonly outcome: Outcome
+      readonly outcome: JobEnd
       readonly sentAt: number | undefined
     }
   | { readonly kind: 'unsolicited'; readonly frame: RequestFrame }

@@ -17,7 +17,7 @@ export type {
   Framing,
   Head,
   Job,
-  Outcome,
+  JobEnd,
   Question,
   RequestFrame,
   ResponseFrame,

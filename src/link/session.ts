@@ -9,7 +9,7 @@
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
 import type { Fence } from './fence'
 
-import type { AnswerFraming, Job, Outcome, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
+import type { AnswerFraming, Job, JobEnd, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
 import { RoundTrips } from './round-trips'
 import { Scheduler } from './scheduler'
 import { SerialNumbers } from './serial-numbers'
@@ -254,7 +254,7 @@ export class Session<J extends Job = Job> {
     this.#finish(job, this.#whyUnsent(job, waiting), undefined)
   }
 
-  #whyUnsent({ deadline, allowance, needsNoProof, roundTrips = this.#roundTrips }: J, waiting: number): Outcome {
+  #whyUnsent({ deadline, allowance, needsNoProof, roundTrips = this.#roundTrips }: J, waiting: number): JobEnd {
     // While it waited the peer answered others, only not soon enough; otherwise it is silent.
     const isAlive = allowance !== undefined && this.#answeredAt >= deadline - allowance
     if (isAlive) return { kind: 'tooLate', waiting, roundTrip: roundTrips.usual }
@@ -450,7 +450,7 @@ export class Session<J extends Job = Job> {
     this.#events.push({ kind: 'drop', error })
   }
 
-  #finish(job: J, outcome: Outcome, sentAt: number | undefined): void {
+  #finish(job: J, outcome: JobEnd, sentAt: number | undefined): void {
     this.#events.push({ kind: 'done', job, outcome, sentAt })
   }
 }

@@ -103,9 +103,9 @@ export function told(session: TestSession): string[] {
   })
 }
 
-type Outcome = Extract<SessionEvent<TestJob>, { kind: 'done' }>['outcome']
+type JobEnd = Extract<SessionEvent<TestJob>, { kind: 'done' }>['outcome']
 
-function outcomeOf(outcome: Outcome): string {
+function outcomeOf(outcome: JobEnd): string {
   switch (outcome.kind) {
     case 'answered':
       return `answered ${outcome.frame.body.toString('latin1')}${outcome.frame.endCode === 0 ? '' : ` ${outcome.frame.endCode.toString(16)}`}`

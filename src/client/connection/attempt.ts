@@ -1,6 +1,6 @@
 // One attempt to reach a PLC over a line, and what it becomes: unlocking, the request that proves the PLC, its silence.
 import { EndCodeError, endsConnection, type PlcError, ProtocolError } from '../../errors'
-import type { Outcome, RequestFrame, ResponseFrame, RoundTrips } from '../../link/link'
+import type { JobEnd, RequestFrame, ResponseFrame, RoundTrips } from '../../link/link'
 import type { Call } from './call'
 import type { ConnectionOptions, TracedFrame } from './connection-options'
 import * as failure from './failure'
@@ -30,7 +30,7 @@ export interface AttemptOwner {
   readonly unanswered: readonly string[]
 }
 
-type TooLate = Extract<Outcome, { kind: 'tooLate' }>
+type TooLate = Extract<JobEnd, { kind: 'tooLate' }>
 
 export class Attempt implements LineUser {
   readonly #options: ConnectionOptions

@@ -5,7 +5,7 @@ import {
   type AnswerFraming,
   type Echo,
   Fence,
-  type Outcome,
+  type JobEnd,
   type RequestFrame,
   type Sent,
   SerialNumbers,
@@ -40,7 +40,7 @@ export interface LineOptions {
 /** How a call ended on the line. */
 export interface LineEnd {
   readonly job: Call
-  readonly outcome: Outcome
+  readonly outcome: JobEnd
   readonly sentAt: number | undefined
 }
 
