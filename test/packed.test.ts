@@ -141,6 +141,33 @@ export async function level(): Promise<number> {
 // @ts-expect-error a number is not a host
 createMelsecClient({ host: 5, port: 5007 })
 `
+  test(
+    'has types of addresses that need none of Node.js',
+    async () => {
+      writeFileSync(
+        join(project, 'browser.ts'),
+        `import { formatItem, parseItem } from '@melsec-jw/plc/address'
+document.title = formatItem(parseItem('D100', { xyRadix: 16 }), { xyRadix: 16 })
+// @ts-expect-error nothing of Node.js is known here
+Buffer.alloc(1)
+`,
+      )
+      const options = [
+        '--noEmit',
+        '--strict',
+        '--target',
+        'es2022',
+        '--module',
+        'esnext',
+        '--moduleResolution',
+        'bundler',
+      ]
+      const args = [tsc, ...options, '--lib', 'es2022,dom', '--types', '', 'browser.ts']
+      await expect(run(process.execPath, args, { cwd: project })).resolves.toMatchObject({ stdout: '' })
+    },
+    MINUTES,
+  )
+
   test.each([
     ['node16', 'node16', 'program.mts'],
     ['node16', 'node16', 'program.cts'],

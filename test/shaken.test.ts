@@ -1,7 +1,9 @@
 // What a program that is bundled carries: only what it uses. What must not be there is told by its texts, which no bundler
 // changes, and not by bytes.
+import { execFile } from 'node:child_process'
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
+import { promisify } from 'node:util'
 import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import { explainEndCode } from '../src/index'
 import { bundle, bundlers } from './support/bundlers'
@@ -52,6 +54,27 @@ const programs: Readonly<Record<string, readonly [program: string, has: readonly
 }
 
 const [esbuild, webpack, vite] = ['esbuild, ESM, minified', 'webpack in production mode', 'vite in production mode']
+
+test.each(['esbuild, CommonJS', 'webpack in production mode'])(
+  'a program that requires the package runs, bundled by %s',
+  async (name) => {
+    const [text = '', extension = ''] = bundlers[name] ?? []
+    const folder = join(packed.project, `required ${name}`.replace(/\W+/g, '-'))
+    mkdirSync(folder)
+    const entry = join(folder, 'program.cjs')
+    writeFileSync(
+      entry,
+      `const { EndCodeError, explainEndCode } = require('@melsec-jw/plc')
+const { parseItem } = require('@melsec-jw/plc/address')
+console.log(EndCodeError.name.length > 0, explainEndCode(0xc059, { family: 'slmp' }).exact, parseItem('D7', { xyRadix: 16 }).address.number)`,
+    )
+    const outfile = join(folder, `bundle.${extension}`)
+    await bundle(text, entry, outfile)
+    const { stdout } = await promisify(execFile)(process.execPath, [outfile])
+    expect(stdout.trim()).toBe('true true 7')
+  },
+  MINUTES,
+)
 
 describe.each([esbuild, webpack, vite])('bundled by %s', (name = '') => {
   const [text, extension] = bundlers[name] ?? ['', '']
