@@ -37,6 +37,12 @@
     return /^[0-9]+$/.test(value) && Number(value) >= min && Number(value) <= max
   }
 
+  /** The frame a connection speaks: its own, or the usual one of its series. Without a series it is 3E. */
+  function frameOf(connection) {
+    const facts = RED.settings.melsecJwConnectionProfiles?.[connection.profile] || {}
+    return connection.frame || facts.frame || '3E'
+  }
+
   function post(path, body) {
     return $.ajax({ url: path, type: 'POST', contentType: 'application/json', data: JSON.stringify(body) })
   }
@@ -88,5 +94,6 @@
     speechOf,
     delayed,
     fill,
+    frameOf,
   })
 })()

@@ -312,6 +312,35 @@ describe('in English', () => {
     expect(await Promise.all(stored)).toEqual(['write', '2:/', 'str', 'replace', 'shift-jis', undefined])
   })
 
+  test('the file dialog asks for a local port over UDP only where the frame has no serial number', async () => {
+    const names = ['profile', 'frame', 'transport', 'localPort'] as const
+    const connect = (values: readonly unknown[]) => {
+      const settings = Object.fromEntries(names.map((name, i) => [name, values[i]]))
+      return page.evaluate(
+        (given) => Object.assign((globalThis as unknown as Editor).RED.nodes.node('plc'), given),
+        settings,
+      )
+    }
+    const before = await Promise.all(names.map((name) => property(page, 'plc', name)))
+    const shown: unknown[] = []
+    const cases = [
+      ['iq-r', '', 'udp', ''],
+      ['iq-r', 'ext', 'udp', ''],
+      ['iq-r', '3E', 'udp', ''],
+      ['q', '', 'udp', ''],
+      ['q', '', 'udp', '5010'],
+    ]
+    for (const values of cases) {
+      await connect(values)
+      await edit(page, 'file')
+      await page.locator('#node-input-action').selectOption('read')
+      shown.push(await page.locator('.melsec-jw-udp').isVisible())
+      await close(page, 'cancel')
+    }
+    await connect(before)
+    expect(shown).toEqual([false, false, true, true, false])
+  })
+
   test('the test button shows the CPU and the round trip, and offers its series', async () => {
     await edit(page, 'plc')
     await page.locator('#node-config-input-profile').selectOption('generic')

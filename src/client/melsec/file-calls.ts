@@ -2,6 +2,7 @@
 import { ClosedError } from '../../errors'
 import type { Exchange } from '../../link/link'
 import type { ClientProtocol } from '../../melsec/client-protocol'
+import { frameFacts } from '../../melsec/frame/frames'
 import type { Connection } from '../connection/connection'
 import { Deadline } from '../connection/deadline'
 import type { FileParts } from '../file/files'
@@ -52,9 +53,9 @@ function aborted(title: string, { reason }: AbortSignal): ClosedError {
 
 /** The PLC locks an open file for the external device that opened it. */
 function unusable({ transport, frame }: Settings, localPort: number | undefined): string | undefined {
-  if (transport !== 'udp' || frame !== '3E' || (localPort ?? 0) > 0) return undefined
+  if (transport !== 'udp' || frameFacts[frame].serial || (localPort ?? 0) > 0) return undefined
   return (
-    'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the file open again. ' +
+    `Over UDP the ${frameFacts[frame].title} frame changes the local port with every request, so the PLC would not find the file open again. ` +
     'Use TCP, the 4E frame, or a fixed localPort.'
   )
 }

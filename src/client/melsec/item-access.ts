@@ -9,6 +9,7 @@ import { longCounterHint, namedAsFx5 } from '../../melsec/a-compatible/rules'
 import type { ClientProtocol } from '../../melsec/client-protocol'
 import { commands } from '../../melsec/commands/commands'
 import type { AddressOptions } from '../../melsec/device/address'
+import { frameFacts } from '../../melsec/frame/frames'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { isItem, listOf } from '../item/input-checks'
 import { type Item, type ParsedItem, parseItem } from '../item/item'
@@ -218,8 +219,8 @@ export class ItemAccess {
   #monitorUnusable(): string | undefined {
     const { transport, frame } = this.#parts.settings
     if (transport !== 'udp') return undefined
-    if (frame === '3E') {
-      return 'Over UDP the 3E frame changes the local port with every request, so the PLC would not find the registration again. The 4E frame or TCP would.'
+    if (!frameFacts[frame].serial) {
+      return `Over UDP the ${frameFacts[frame].title} frame changes the local port with every request, so the PLC would not find the registration again. The 4E frame or TCP would.`
     }
     if (!this.#monitored) return undefined
     return 'Another monitor of this client is registered. Over UDP a registration may arrive twice or late, and take the place of this one without anybody noticing. Over TCP they take turns.'
