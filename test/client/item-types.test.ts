@@ -274,6 +274,9 @@ const LABELS = [
   ['label:Line1.Values[0]:INT[3]', 'number[]'],
   ['label:Line1.Values[2]', 'one'],
   ['Ready', 'one'],
+  // Not the digits of bits, because of its underscore.
+  ['K4_Motor', 'one'],
+  ['K1ZR1_0', 'one'],
   ['Ready:BOOL', 'boolean'],
   // With `label:` it is a label, whatever it looks like.
   ['label:D100', 'one'],
@@ -380,6 +383,8 @@ const plc = createPlcSimulator({
     'Line1.Speed': { type: 'REAL' },
     'Line1.Values': { type: 'INT', dimensions: [10] },
     Ready: { type: 'BOOL' },
+    K4_Motor: { type: 'REAL' },
+    K1ZR1_0: { type: 'BOOL' },
     D100: { type: 'DINT' },
     M1: { type: 'STRING(10)' },
   },

@@ -99,9 +99,9 @@ type DefaultType<T extends string> = T extends `@${infer Rest}`
     ? TypeOfTail<Tail>
     : TypeOfTail<T>
 
-/** Digits of bits are a number: `K4M0`. */
+/** Digits of bits are a number: `K4M0`. Asked this way round, because `K4_Motor` has no type, which fits anything. */
 type TypeOfTail<T extends string> = T extends `K${1 | 2 | 3 | 4 | 5 | 6 | 7 | 8}${infer Bits}`
-  ? TypeOfName<Bits> extends DefaultTypes['bit']
+  ? DefaultTypes['bit'] extends TypeOfName<Bits>
     ? DefaultTypes['word' | 'doubleWord']
     : never
   : TypeOfName<T>
