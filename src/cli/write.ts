@@ -1,6 +1,7 @@
 import {
   createMelsecClient,
   type DeviceExplanation,
+  EndCodeError,
   type ItemExplanation,
   type MelsecClient,
   type PlcError,
@@ -205,7 +206,8 @@ function resultData(results: readonly WriteResult[], result: WriteResult): unkno
 
 /** Items that were refused in the same request: one of them is to blame, and which one no end code says. */
 function sharing(results: readonly WriteResult[], refused: WriteResult & { readonly ok: false }): readonly string[] {
-  if (refused.error.outcome !== 'refused') return []
+  const { error } = refused
+  if (!(error instanceof EndCodeError) || error.about === 'state' || error.about === 'transmission') return []
   const same = results.filter((result) => result !== refused && !result.ok && result.error === refused.error)
   return same.map(({ item }) => item)
 }

@@ -172,7 +172,10 @@ describe('a refused merged write', () => {
   test('for a reason that is about no device is not tried again', async () => {
     const { run, plc } = bench(entries)
     plc.refuse = () => LOCKED
-    expect(codes(await run())).toEqual([LOCKED, LOCKED, LOCKED])
+    const results = await run()
+    expect(codes(results)).toEqual([LOCKED, LOCKED, LOCKED])
+    // None of the items is to blame, so none is named.
+    expect(errorOf(results[0]).message).toMatch(/^Write \(word units\) was refused/)
     expect(plc.seen).toHaveLength(1)
   })
 

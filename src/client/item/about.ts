@@ -4,7 +4,7 @@
  * What goes wrong with one item of many names it by the name the user gave it and by its address. What is about the
  * connection, and so about all items alike, names none.
  */
-import { EndCodeError, type PlcError, RequestError } from '../../errors'
+import { type EndCodeAbout, EndCodeError, type PlcError, RequestError } from '../../errors'
 
 /** An item as messages call it. */
 export interface Subject {
@@ -90,6 +90,14 @@ function withMessage<E extends PlcError>(error: E, message: string): E {
 /** Whether the error is about its item, and not about the connection or the whole call. */
 function isAbout(error: PlcError, item: string): boolean {
   return HEADED.has(error) || error instanceof RequestError || behind(error.message, item) !== undefined
+}
+
+/** What every request meets alike, whatever it asks for. */
+const MEETS_ALL: ReadonlySet<EndCodeAbout> = new Set(['state', 'transmission'])
+
+/** Whether a refusal says nothing about the items: the PLC is locked, busy, in RUN, or the request arrived damaged. */
+export function isAboutNoItem({ about: blamed }: EndCodeError): boolean {
+  return MEETS_ALL.has(blamed)
 }
 
 /** The result of an item that may have failed. */

@@ -39,9 +39,6 @@ export interface Leaf {
 /** What a smaller request may escape. A code nobody knows may be about a single item. */
 const MAY_HELP: ReadonlySet<EndCodeAbout> = new Set(['item', 'size', 'unknown'])
 
-/** What every request meets alike, however small. */
-const MEETS_ALL: ReadonlySet<EndCodeAbout> = new Set(['state', 'transmission'])
-
 /** After so many runs, items that were refused together are tried one by one again: the PLC may have been changed. */
 const TRY_AGAIN = 32
 
@@ -161,11 +158,6 @@ export class ReadShape {
       if (error instanceof RequestError) return undefined
       throw error
     }
-  }
-
-  /** Whether the refusal says nothing about what was asked for: asking otherwise is of no use. */
-  isAboutPlc({ about: blamed }: EndCodeError): boolean {
-    return MEETS_ALL.has(blamed)
   }
 
   /** Whether all items of this request were refused one by one with this code, so that dividing it is of no use. */

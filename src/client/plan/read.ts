@@ -8,7 +8,7 @@
 
 import { EndCodeError, PlcError, type RequestError } from '../../errors'
 import type { PlcValue, Words } from '../../value/value'
-import { about } from '../item/about'
+import { about, isAboutNoItem } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { ReadResult } from '../item/item-value'
 import type { PlanProtocol } from './limit'
@@ -71,7 +71,7 @@ export class DeviceRead {
     const outcome = await run.attempt(step)
     if (outcome === 'read') this.#shape.answered(step)
     if (!(outcome instanceof EndCodeError)) return
-    if (this.#shape.isAboutPlc(outcome)) {
+    if (isAboutNoItem(outcome)) {
       run.give(step, outcome)
       return
     }

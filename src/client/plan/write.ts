@@ -7,7 +7,7 @@ import { ClosedError, EndCodeError, PlcError, RequestError, type WriteResult } f
 import type { Notation } from '../../melsec/device/json'
 import { addressOptionsOf, type Profile } from '../../melsec/profiles/profile'
 import type { CallOptions } from '../connection/call'
-import { about } from '../item/about'
+import { about, isAboutNoItem } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { PlainValue } from '../item/item-value'
 import { stopsOrder } from '../item/write-outcome'
@@ -251,7 +251,7 @@ class WriteRun {
     if (this.#allOrNothing) this.#stopped ??= error
     const entries = [...new Set(step.units.map(({ entry }) => entry))]
     const likely = [...entries].sort((a, b) => Number(this.#isBeyond(b)) - Number(this.#isBeyond(a)))
-    const told = isAboutItems(error)
+    const told = mayBeAbout(error, entries.length)
       ? about(
           error,
           likely.map((entry) => ({ item: this.#text(entry) })),
@@ -293,9 +293,12 @@ class WriteRun {
   }
 }
 
-/** The PLC refuses what is written; that a request is not permitted is about none of its items. */
-function isAboutItems(error: PlcError): boolean {
-  return error instanceof EndCodeError
+/**
+ * Whether an error may be about one of so many items: the PLC refuses what is written. That a request is not permitted, or
+ * that the PLC is locked, is about none of several.
+ */
+function mayBeAbout(error: PlcError, items: number): boolean {
+  return error instanceof EndCodeError && (items === 1 || !isAboutNoItem(error))
 }
 
 /** A refusal in the middle of an array: the PLC was changed, so `refused` or `notSent` would be a lie. */
