@@ -30,12 +30,17 @@ const slashed = (path) => path.replaceAll('\\', '/')
 
 /** A text in the form of the report: without comments and without the files that TypeScript imports types from. */
 function plain(text) {
-  return text
-    .replaceAll(/^[ \t]*\/\*\*[\s\S]*?\*\/\n?/gm, '')
-    .replaceAll(/\bimport\("[^"]+"\)\./g, '')
-    .replaceAll(/^(export )?(declare )?/g, '')
-    .replaceAll(/\n{2,}/g, '\n')
-    .trimEnd()
+  return (
+    text
+      .replaceAll(/^[ \t]*\/\*\*[\s\S]*?\*\/\n?/gm, '')
+      .replaceAll(/\bimport\("[^"]+"\)\./g, '')
+      .replaceAll(/^(export )?(declare )?/g, '')
+      .replaceAll(/\n{2,}/g, '\n')
+      // Where docstrings stood among parameters.
+      .replaceAll(/\(\n\s+/g, '(')
+      .replaceAll(/, *\n\s+/g, ', ')
+      .trimEnd()
+  )
 }
 
 const isHidden = (member) =>
