@@ -53,10 +53,19 @@ export interface AnswerFraming<H = Head> {
   readonly name: string
   /** How an answer finds its request: by a serial number in the frame, or only by the order of arrival. */
   readonly correlation: 'serial' | 'order'
+  /** On a line that is no connection: what ends whatever the peer was asked, so that no answer to it comes any more. */
+  readonly recovery?: Buffer
   readonly request: {
+    /** As `response.noise`, for the PLC's side. */
+    noise?(bytes: Buffer): number
     scan(bytes: Buffer, bodyLength: BodyLength<H>): Scanned<RequestFrame<H>> | undefined
   }
   readonly response: {
+    /**
+     * Where lines have noise: bytes at the front that can be no frame and are thrown away; 0 when a frame begins there,
+     * or may begin.
+     */
+    noise?(bytes: Buffer): number
     scan(bytes: Buffer, bodyLength: BodyLength<H>): Scanned<ResponseFrame<H>> | undefined
     /**
      * Whether a frame in the place of an answer is one the PLC sends unasked (On-demand). Such frames have the form
@@ -122,7 +131,7 @@ export type SessionEvent<J extends Job = Job> =
   | { readonly kind: 'unsolicited'; readonly frame: RequestFrame }
   /** An answer to a request that was given up: thrown away. */
   | { readonly kind: 'stale'; readonly serial: number | undefined }
-  /** While a fence is asked for, an answer to anything else: thrown away. It does not show that the peer takes requests. */
+  /** Thrown away: noise, or while a fence is asked for an answer to anything else. It does not show that the peer takes requests. */
   | { readonly kind: 'stray' }
   /** The connection must be dropped: what arrives on it can no longer be attributed. */
   | { readonly kind: 'drop'; readonly error: PlcError }

@@ -25,6 +25,7 @@ export type {
   SessionEvent,
 } from './framing'
 export { HeadProtocol, type HeadProtocolParts, type NamedCommand } from './head-protocol'
+export { Recovery, type RecoveryOptions } from './recovery'
 export { Responder } from './responder'
 export { RoundTrips } from './round-trips'
 export { PRIORITIES, type Priority, type Scheduled, Scheduler } from './scheduler'

@@ -6,10 +6,13 @@
 // The same holds with serial numbers for a stream that stopped in the middle of an answer.
 // With datagrams the network may also duplicate, so there the port is changed after every answer. A port that stays
 // needs a fence (fence.ts): each request waits until it is proved that nothing earlier is under way.
+// A line that is no connection (serial) cannot be made anew: it is brought to a known state (recovery.ts) instead.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
 import type { Fence } from './fence'
 
 import type { AnswerFraming, Job, JobEnd, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
+import { Incoming } from './incoming'
+import { type Recovery, type RecoveryOptions, recoveryOf } from './recovery'
 import { RoundTrips } from './round-trips'
 import { Scheduler } from './scheduler'
 import { SerialNumbers } from './serial-numbers'
@@ -26,6 +29,8 @@ export interface SessionOptions {
   readonly serials?: SerialNumbers
   /** Of the peer, too. */
   readonly roundTrips?: RoundTrips
+  /** For framings with `recovery`: the line is brought to a known state instead of being dropped. */
+  readonly recovery?: RecoveryOptions
 }
 
 /** Bytes to send. On datagram links one buffer is one datagram. */
@@ -60,7 +65,6 @@ type Found =
   | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame }
   | { readonly used: number; readonly kind: 'unasked' }
 
-const EMPTY = Buffer.alloc(0)
 const MAX_FRAME = 65_536
 /**
  * A request is sent only while so much of its allowance is left, and while an answer usually comes within what is left.
@@ -74,13 +78,12 @@ export class Session<J extends Job = Job> {
   readonly #framing: AnswerFraming
   readonly #options: SessionOptions
   readonly #fence: Fence | undefined
+  readonly #recovery: Recovery | undefined
   #pending: Pending<J>[] = []
   readonly #waiting = new Scheduler<J>()
   #output: Outgoing<J>[] = []
   #events: SessionEvent<J>[] = []
-  #received: Buffer = EMPTY
-  /** Stream: what may still follow the last answer. */
-  #mayFollow: Buffer = EMPTY
+  readonly #received = new Incoming()
   readonly #serials: SerialNumbers
   readonly #roundTrips: RoundTrips
   #answeredAt = Number.NEGATIVE_INFINITY
@@ -100,6 +103,7 @@ export class Session<J extends Job = Job> {
     this.#options = options
     this.#fence = fence
     fence?.begin()
+    this.#recovery = options.kind === 'stream' ? recoveryOf(framing, options.recovery) : undefined
     this.#serials = options.serials ?? new SerialNumbers()
     this.#roundTrips = options.roundTrips ?? new RoundTrips()
   }
@@ -139,7 +143,7 @@ export class Session<J extends Job = Job> {
     if (this.#waiting.remove(job)) return false
     const pending = this.#pending.find((entry) => entry.job === job)
     if (pending === undefined) return undefined
-    this.#giveUp([pending], 'a request in flight was abandoned')
+    this.#giveUp([pending], 'a request in flight was abandoned', now)
     this.#fill(now)
     return pending.sent
   }
@@ -149,7 +153,7 @@ export class Session<J extends Job = Job> {
     const waiting = [...this.#waiting].filter(belongs)
     for (const job of waiting) this.#waiting.remove(job)
     const pending = this.#pending.filter(({ job }) => belongs(job))
-    if (pending.length > 0) this.#giveUp(pending, 'a request in flight was abandoned')
+    if (pending.length > 0) this.#giveUp(pending, 'a request in flight was abandoned', now)
     this.#fill(now)
     return [...waiting.map((job) => ({ job, sent: false })), ...pending.map(({ job, sent }) => ({ job, sent }))]
   }
@@ -157,6 +161,7 @@ export class Session<J extends Job = Job> {
   receive(chunk: Buffer, now: number): void {
     if (this.#dropped) return
     if (this.#options.kind === 'datagram') this.#receiveDatagram(chunk, now)
+    else if (this.#recovery?.swallows(now) === true) this.#events.push({ kind: 'stray' })
     else this.#receiveStream(chunk, now)
     this.#fill(now)
   }
@@ -166,7 +171,8 @@ export class Session<J extends Job = Job> {
     for (const job of [...this.#waiting].filter((entry) => this.#sendBy(entry) <= now)) this.#tooLate(job)
     const late = this.#pending.filter((entry) => entry.job.deadline <= now)
     for (const { job, sentAt, sent } of late) this.#finish(job, { kind: 'timedOut', sent }, sentAt)
-    if (late.length > 0) this.#giveUp(late, 'no answer before the deadline')
+    if (late.length > 0) this.#giveUp(late, 'no answer before the deadline', now)
+    if (this.#halfUntil !== undefined && this.#halfUntil <= now) this.#endHalf(now)
     this.#fill(now)
   }
 
@@ -176,7 +182,7 @@ export class Session<J extends Job = Job> {
     const waiting = this.#waiting.clear()
     this.#pending = []
     this.#output = []
-    this.#received = EMPTY
+    this.#received.clear()
     this.#dropped = true
     for (const { job, serial, sentAt, sent } of pending) {
       if (sent) this.#serials.rest(serial)
@@ -188,7 +194,8 @@ export class Session<J extends Job = Job> {
   /** When something is due, or `undefined` when nothing waits. */
   nextTimeout(now: number): number | undefined {
     let earliest: number | undefined
-    if (this.#waiting.size > 0) earliest = this.#fence?.due
+    if (this.#waiting.size > 0) earliest = this.#fence?.due ?? this.#recovery?.due
+    earliest = earlier(earliest, this.#halfUntil)
     if (this.#pending.length < this.#options.window) earliest = earlier(earliest, this.#waiting.due(now))
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
     // Nothing waits between the requests of most programs.
@@ -207,7 +214,9 @@ export class Session<J extends Job = Job> {
   /** The next bytes to send, with whose they are. */
   next(): Sent<J> | undefined {
     const next = this.#output.shift()
-    if (next !== undefined) next.sent = true
+    if (next === undefined) return undefined
+    next.sent = true
+    if (this.#recovery !== undefined && next.job !== undefined) this.#received.mayEcho(next.bytes)
     return next
   }
 
@@ -264,6 +273,7 @@ export class Session<J extends Job = Job> {
 
   /** Whether its answer could be told from earlier ones; asks for the proof when it is due. */
   #mayLeave(job: J, now: number): boolean {
+    if (this.#recovery?.holds(now) === true) return false
     const fence = this.#fence
     if (fence === undefined || job.needsNoProof === true || fence.allows(now)) return true
     const bytes = fence.ask(now)
@@ -272,31 +282,42 @@ export class Session<J extends Job = Job> {
   }
 
   #receiveStream(chunk: Buffer, now: number): void {
-    this.#received = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
+    this.#received.add(chunk)
     try {
-      while (!this.#dropped && !this.#passOver() && this.#received.length > 0) {
-        const found = this.#find(this.#received)
+      while (!this.#dropped && !this.#received.passOver() && this.#received.length > 0) {
+        if (this.#skipNoise()) continue
+        const found = this.#find(this.#received.bytes)
         if (found === undefined) break
-        this.#mayFollow = (found.kind === 'answer' && found.mayFollow) || EMPTY
+        this.#received.mayFollow(found.kind === 'answer' ? found.mayFollow : undefined)
         this.#take(found, now)
-        this.#received = found.used >= this.#received.length ? EMPTY : this.#received.subarray(found.used)
+        this.#received.take(found.used)
       }
       this.#refuseEndlessFrame()
     } catch (error) {
-      this.#fail(error)
+      this.#fail(error, now)
     }
   }
 
-  /** Takes away what may follow the last answer; it may come late. @returns whether it is there in part */
-  #passOver(): boolean {
-    const expected = this.#mayFollow
-    const here = Math.min(expected.length, this.#received.length)
-    if (here === 0) return false
-    const isIt = this.#received.subarray(0, here).equals(expected.subarray(0, here))
-    if (isIt && here < expected.length) return true
-    this.#mayFollow = EMPTY
-    if (isIt) this.#received = this.#received.subarray(here)
-    return false
+  #skipNoise(): boolean {
+    const noise = this.#recovery === undefined ? 0 : (this.#framing.response.noise?.(this.#received.bytes) ?? 0)
+    if (noise === 0) return false
+    this.#received.take(noise)
+    this.#events.push({ kind: 'stray' })
+    return true
+  }
+
+  /** Until when the rest of half a frame may come; `undefined` where it may come at any time, or nothing is there. */
+  get #halfUntil(): number | undefined {
+    return this.#received.length === 0 ? undefined : this.#recovery?.halfUntil
+  }
+
+  #endHalf(now: number): void {
+    const { bytes } = this.#received
+    this.#received.clear()
+    if (this.#pending.some((entry) => entry.sent)) {
+      const message = `An answer stopped after ${bytes.length} byte(s).`
+      this.#fail(new ProtocolError('TRUNCATED', message, { offset: bytes.length, bytes }), now)
+    } else this.#events.push({ kind: 'stray' })
   }
 
   #refuseEndlessFrame(): void {
@@ -323,7 +344,7 @@ export class Session<J extends Job = Job> {
       }
       this.#take(found, now)
     } catch (error) {
-      this.#fail(error)
+      this.#fail(error, now)
     }
   }
 
@@ -360,10 +381,10 @@ export class Session<J extends Job = Job> {
         this.#events.push({ kind: 'unsolicited', frame: found.frame })
         return
       case 'unasked':
-        if (this.#options.kind === 'stream') {
+        if (this.#options.kind === 'stream' && this.#recovery === undefined) {
           throw new ProtocolError('UNEXPECTED_ANSWER', 'An answer arrived that nobody asked for.', {
             offset: 0,
-            bytes: this.#received,
+            bytes: this.#received.bytes,
           })
         }
         this.#events.push({ kind: 'stale', serial: undefined })
@@ -398,7 +419,7 @@ export class Session<J extends Job = Job> {
     if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order') this.#renew('answered')
   }
 
-  #giveUp(entries: readonly Pending<J>[], why: string): void {
+  #giveUp(entries: readonly Pending<J>[], why: string, now: number): void {
     this.#pending = this.#pending.filter((entry) => !entries.includes(entry))
     this.#output = this.#output.filter((entry) => !entries.some((gone) => gone === entry))
     const sent = entries.filter((entry) => entry.sent)
@@ -412,8 +433,17 @@ export class Session<J extends Job = Job> {
       this.#renew('givenUp')
       return
     }
+    if (this.#recover(now)) return
     const message = `The connection was dropped: ${why}, and without a serial number a late answer could not be told from the next one.`
     this.#drop(new ConnectionError('DISCONNECTED', message, 'unknown'))
+  }
+
+  /** Brings the line to a known state, where that can be done. @returns whether it can */
+  #recover(now: number): boolean {
+    if (this.#recovery === undefined) return false
+    this.#received.clear()
+    this.#output.unshift({ bytes: this.#recovery.begin(now), job: undefined, sent: false })
+    return true
   }
 
   /** A late or second answer may come to this port; a fence is told to stand again before the next request. */
@@ -431,7 +461,7 @@ export class Session<J extends Job = Job> {
     this.#drop(new ConnectionError('DISCONNECTED', message, 'unknown'))
   }
 
-  #fail(error: unknown): void {
+  #fail(error: unknown, now: number): void {
     if (!(error instanceof PlcError)) throw error
     const failed = this.#pending.filter((entry) => entry.sent)
     // What is still here was not sent: it ends with the connection, and its owner may send it on the next one.
@@ -440,12 +470,12 @@ export class Session<J extends Job = Job> {
       this.#serials.rest(serial)
       this.#finish(job, { kind: 'failed', error }, sentAt)
     }
-    this.#drop(error)
+    if (!this.#recover(now)) this.#drop(error)
   }
 
   #drop(error: PlcError): void {
     this.#dropped = true
-    this.#received = EMPTY
+    this.#received.clear()
     this.#output = []
     this.#events.push({ kind: 'drop', error })
   }

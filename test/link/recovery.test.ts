@@ -1,0 +1,174 @@
+// A line that is no connection: noise, echoes, silence and rubbish cost one request at most, and never the line.
+import { describe, expect, test } from '@jest/globals'
+import { type Framing, Session } from '../../src/link/link'
+import { frame4cFormat5, type Head4c } from '../../src/melsec/frame/frame-4c'
+import { questionOf } from '../support/question'
+import { eventsOf, type TestJob } from './support'
+
+const EOT = Buffer.of(0x04)
+const DLE = 0x10
+const format5 = frame4cFormat5()
+const framing: Framing<Head4c> = {
+  ...format5,
+  recovery: EOT,
+  response: {
+    ...format5.response,
+    noise(bytes) {
+      const start = bytes.indexOf(DLE)
+      return start < 0 ? bytes.length : start
+    },
+  },
+}
+const head = (station: number): Head4c => ({
+  station,
+  network: 0,
+  pc: 0xff,
+  moduleIo: 0x3ff,
+  multidrop: 0,
+  selfStation: 0,
+})
+const QUIET = 20
+const BETWEEN = 5
+
+class Line {
+  readonly session = new Session<TestJob>(framing, {
+    kind: 'stream',
+    window: 1,
+    recovery: { quiet: QUIET, betweenBytes: BETWEEN },
+  })
+
+  ask(name: string, station = 0, deadline = 1000, now = 0): Buffer | undefined {
+    this.session.submit({ name, deadline, ...questionOf(framing, head(station), Buffer.from(name)) }, now)
+    return this.session.transmit()
+  }
+
+  answer(name: string, station = 0): Buffer {
+    return framing.response.write(head(station), 0, 0, Buffer.from(name))
+  }
+
+  get told(): string[] {
+    return eventsOf(this.session).map((event) => {
+      if (event.kind !== 'done') return event.kind
+      const { outcome } = event
+      if (outcome.kind === 'answered') return `${event.job.name} answered ${String(outcome.frame.body)}`
+      return `${event.job.name} ${outcome.kind}${outcome.kind === 'failed' ? ` ${outcome.error.code}` : ''}`
+    })
+  }
+}
+
+describe('noise', () => {
+  test('while nothing is asked is thrown away', () => {
+    const line = new Line()
+    line.session.receive(Buffer.of(0x00, 0xff), 0)
+    expect(line.told).toEqual(['stray'])
+    expect(line.ask('A', 0, 1000, 1)).toBeDefined()
+    line.session.receive(line.answer('a'), 2)
+    expect(line.told).toEqual(['A answered a'])
+  })
+
+  test('before an answer costs nothing', () => {
+    const line = new Line()
+    line.ask('A')
+    line.session.receive(Buffer.concat([Buffer.of(0x00, 0x55), line.answer('a')]), 1)
+    expect(line.told).toEqual(['stray', 'A answered a'])
+  })
+
+  test('that looks like the beginning of a frame is thrown away, too', () => {
+    const line = new Line()
+    line.session.receive(Buffer.of(DLE), 0)
+    expect([line.told, line.session.buffered, line.session.nextTimeout(0)]).toEqual([['stale'], 0, undefined])
+  })
+})
+
+describe('the echo of the own request', () => {
+  test.each([1, 3, 1000])('is passed over, in chunks of %i', (size) => {
+    const line = new Line()
+    const request = line.ask('A') ?? EOT
+    const bytes = Buffer.concat([request, line.answer('a')])
+    for (let at = 0; at < bytes.length; at += size) line.session.receive(bytes.subarray(at, at + size), 1)
+    expect(line.told).toEqual(['A answered a'])
+  })
+})
+
+describe('silence', () => {
+  test('of one station: the line is brought to a known state, then the next one is asked', () => {
+    const line = new Line()
+    line.ask('A', 1, 100)
+    expect(line.ask('B', 2, 1000)).toBeUndefined()
+    line.session.timeout(100)
+    expect(line.told).toEqual(['A timedOut'])
+    expect([line.session.transmit(), line.session.transmit()]).toEqual([EOT, undefined])
+    expect(line.session.nextTimeout(100)).toBe(100 + QUIET)
+    // The late answer comes, and the line must be quiet anew.
+    line.session.receive(line.answer('a', 1), 110)
+    expect([line.told, line.session.transmit()]).toEqual([['stray'], undefined])
+    line.session.timeout(120)
+    expect(line.session.transmit()).toBeUndefined()
+    line.session.timeout(130)
+    expect(line.session.transmit()).toBeDefined()
+    line.session.receive(line.answer('b', 2), 131)
+    expect(line.told).toEqual(['B answered b'])
+  })
+
+  test('in the middle of an answer ends it soon, whatever the deadline', () => {
+    const line = new Line()
+    line.ask('A')
+    line.session.receive(line.answer('a').subarray(0, 8), 3)
+    expect(line.session.nextTimeout(3)).toBe(3 + BETWEEN)
+    line.session.timeout(3 + BETWEEN)
+    expect([line.told, line.session.transmit()]).toEqual([['A failed TRUNCATED'], EOT])
+  })
+
+  test('after a request that was aborted in flight is waited for, too', () => {
+    const line = new Line()
+    const job: TestJob = { name: 'A', deadline: 1000, ...questionOf(framing, head(1), Buffer.from('A')) }
+    line.session.submit(job, 0)
+    line.session.transmit()
+    expect(line.session.abandon(job, 5)).toBe(true)
+    expect(line.ask('B', 2, 1000, 5)).toEqual(EOT)
+    line.session.timeout(5 + QUIET)
+    expect(line.session.transmit()).toBeDefined()
+  })
+})
+
+describe('rubbish', () => {
+  test('a wrong sum fails its request and nothing else', () => {
+    const line = new Line()
+    line.ask('A', 1)
+    line.ask('B', 2)
+    const damaged = Buffer.from(line.answer('a', 1))
+    damaged.writeUInt8(damaged.readUInt8(14) ^ 1, 14)
+    line.session.receive(damaged, 10)
+    expect([line.told, line.session.transmit()]).toEqual([['A failed BAD_SUM'], EOT])
+    line.session.timeout(10 + QUIET)
+    line.session.transmit()
+    line.session.receive(line.answer('b', 2), 40)
+    expect(line.told).toEqual(['B answered b'])
+  })
+
+  test('the answer of another station fails the request, and is not taken for it', () => {
+    const line = new Line()
+    line.ask('A', 1)
+    line.session.receive(line.answer('x', 7), 1)
+    expect(line.told).toEqual(['A failed ECHO_MISMATCH'])
+  })
+
+  test('an answer that nobody asked for is thrown away', () => {
+    const line = new Line()
+    line.session.receive(line.answer('x', 7), 1)
+    expect(line.told).toEqual(['stale'])
+    expect(line.ask('A', 1, 1000, 2)).toBeDefined()
+  })
+
+  test('without end keeps the line busy until the deadlines, and costs bounded memory', () => {
+    const line = new Line()
+    line.ask('A', 1, 50)
+    line.session.timeout(50)
+    line.session.transmit()
+    line.ask('B', 2, 500, 50)
+    for (let now = 51; now < 500; now += 10) line.session.receive(Buffer.alloc(1000, DLE), now)
+    line.session.timeout(500)
+    expect(line.told.filter((event) => event !== 'stray')).toEqual(['A timedOut', 'B timedOut'])
+    expect(line.session.buffered).toBe(0)
+  })
+})
