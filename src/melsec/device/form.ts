@@ -2,9 +2,8 @@ import { hex } from '../../basics/hex'
 import type { DataCode } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { Command } from '../commands/command'
-import type { CommandName } from '../commands/commands'
 import { FILE_BITS } from '../file/codec'
-import { exclusionOf, lackOf, type Profile } from '../profiles/profile'
+import { exclusionOf, lackOf, type Profile, type Subcommand } from '../profiles/profile'
 import { type AccessProblem, accessProblem } from './access'
 import { FORM_EXTENDED, FORM_LONG, formNeededBy, formProblem } from './codec'
 import { deviceInfo } from './device'
@@ -27,7 +26,8 @@ const FORM_OF_BITS: ReadonlyMap<number, DeviceForm> = new Map(
 
 /** Subcommands of a command in a form on a family, the usual one first. */
 function subcommandsOf(command: Command, form: DeviceForm, profile: Profile): readonly number[] {
-  const override = profile.subcommands[command.name as CommandName]
+  const overrides: Readonly<Record<string, Subcommand | undefined>> = profile.subcommands
+  const override = overrides[command.name]
   if (override !== undefined) return [override.value]
   if (command.unit !== 'none') return [FORM_BITS[form] | (command.unit === 'bit' ? BIT_UNIT : 0)]
   const { subcommands } = command
@@ -151,7 +151,7 @@ function needOf(profile: Profile, address: FoundDevice['address']): number {
 }
 
 function commandProblem(profile: Profile, command: Command): FormProblem | undefined {
-  const lack = lackOf(profile, command.name as CommandName)
+  const lack = lackOf(profile, command.name)
   if (lack === undefined) return undefined
   return unsupported(`${profile.title} does not have ${command.title}: ${lack.reason} ${lack.instead}`, command.name)
 }
@@ -173,7 +173,7 @@ function deviceProblem(profile: Profile, command: Command, { address, use }: Fou
   }
   const index = indexProblem(profile, address.index) ?? indexProblem(profile, address.extensionIndex)
   if (index !== undefined) return index
-  const exclusion = exclusionOf(profile, command.name as CommandName, address.device)
+  const exclusion = exclusionOf(profile, command.name, address.device)
   if (exclusion === undefined) return undefined
   return unsupported(
     `${command.title} does not take ${address.device} on ${profile.title}: ${exclusion.reason} ${exclusion.instead}`,

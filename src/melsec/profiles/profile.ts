@@ -408,9 +408,9 @@ export function doubtOf(profile: Profile, command: CommandName): Lack | undefine
 }
 
 /** Why the command does not take the device on this family; undefined when nothing is known against it. */
-export function exclusionOf(profile: Profile, command: CommandName, device: DeviceName): DeviceExclusion | undefined {
+export function exclusionOf(profile: Profile, command: string, device: DeviceName): DeviceExclusion | undefined {
   return profile.exclusions.find(
-    (exclusion) => exclusion.commands.includes(command) && exclusion.devices.includes(device),
+    ({ commands, devices }) => commands.some((name) => name === command) && devices.includes(device),
   )
 }
 
