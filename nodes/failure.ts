@@ -1,6 +1,6 @@
 // What a node hands to done(): an error that Node-RED carries to Catch nodes without losing what the plant must know.
 
-import { hex } from '../src/basics/hex'
+import { endCodeDigits } from '../src/basics/end-code-digits'
 import { commands } from '../src/entry/codec'
 import type { EndCodeAbout, EndCodeFamily, Language } from '../src/index'
 import {
@@ -171,7 +171,7 @@ function titleOf({ family, commandName = '' }: EndCodeError, texts: Texts): stri
 
 function codeText({ family, endCode, abnormalCode }: EndCodeError): string {
   const codes = abnormalCode === undefined ? [endCode] : [endCode, abnormalCode]
-  return codes.map((code) => `${hex(code, family === 'slmp' ? 4 : 2)}H`).join(', ')
+  return codes.map((code) => `${endCodeDigits(code, family)}H`).join(', ')
 }
 
 function reasonOf(error: PlcError): { reason?: string } {

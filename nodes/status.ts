@@ -1,5 +1,6 @@
 // What a node shows below itself: how the connection is, or why the last message failed.
 import type { Node, NodeStatus } from 'node-red'
+import { endCodeDigits } from '../src/basics/end-code-digits'
 import type { ConnectionState } from '../src/index'
 import type { Load } from './busy'
 import type { ConnectionUser } from './connection'
@@ -42,11 +43,6 @@ function ofState(state: ConnectionState, texts: Texts): ShownStatus {
 
 function ofCode(code: FailureCode, texts: Texts): ShownStatus {
   return { fill: 'red', shape: 'ring', text: shortText(code, texts), code }
-}
-
-/** End codes as manuals and GX Works write them: four hexadecimal digits. */
-export function endCodeText(endCode: number): string {
-  return endCode.toString(16).toUpperCase().padStart(4, '0')
 }
 
 /** So many skipped messages are no moment in which the PLC was slow. */
@@ -99,11 +95,11 @@ export class Display implements ConnectionUser {
     this.#show({ fill: 'yellow', shape: 'dot', text: this.texts('status.notVerified') })
   }
 
-  failed({ code, endCode }: NodeFailure): void {
+  failed({ code, endCode, cause }: NodeFailure): void {
     if (code === 'OFFLINE' && this.#state !== undefined) this.#show(ofState(this.#state, this.texts))
     else if (endCode === undefined) this.#show(ofCode(code, this.texts))
     else {
-      const text = this.texts('status.endCode', { code: endCodeText(endCode) })
+      const text = this.texts('status.endCode', { code: endCodeDigits(endCode, cause.family) })
       this.#show({ ...ofCode(code, this.texts), text, endCode })
     }
   }

@@ -1,5 +1,5 @@
 // End codes as the manuals and GX Works write them.
-import { hex } from '../basics/hex'
+import { endCodeDigits } from '../basics/end-code-digits'
 import { type EndCodeFamily, RequestError } from '../index'
 
 /**
@@ -18,5 +18,5 @@ export function endCodeOf(text: string): number {
 
 /** e.g. `C059H`; of 1E and 1C frames `5BH` */
 export function endCodeText(endCode: number, family: EndCodeFamily = 'slmp'): string {
-  return `${hex(endCode, family === 'slmp' ? 4 : 2)}H`
+  return `${endCodeDigits(endCode, family)}H`
 }

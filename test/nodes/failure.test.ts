@@ -2,7 +2,8 @@
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { describe, expect, test } from '@jest/globals'
-import { detailsOf } from '../../nodes/failure'
+import { detailsOf, failureOf } from '../../nodes/failure'
+import { Display } from '../../nodes/status'
 import type { Texts } from '../../nodes/texts'
 import { commands } from '../../src/entry/codec'
 import {
@@ -39,6 +40,20 @@ function refused(endCode: number, commandName: CommandName, more: Partial<EndCod
     ...more,
   })
 }
+
+test('a status shows an end code with the digits of its family', () => {
+  const shown: unknown[] = []
+  const node = { status: (status: unknown) => void shown.push(status) }
+  const texts = textsIn('en-US')
+  // Of a node the display needs its status only.
+  const display = new Display(node as unknown as ConstructorParameters<typeof Display>[0], texts)
+  display.failed(failureOf(refused(0xc056, 'readWords'), texts))
+  display.failed(failureOf(refused(0x56, 'readWords', { family: '1E' }), texts))
+  expect(shown).toEqual([
+    expect.objectContaining({ text: texts('status.endCode', { code: 'C056' }), endCode: 0xc056 }),
+    expect.objectContaining({ text: texts('status.endCode', { code: '56' }), endCode: 0x56 }),
+  ])
+})
 
 describe('an end code', () => {
   test.each(languages.filter((language) => language !== 'en-US'))('in %s: message, meaning and remedy', (language) => {

@@ -1,5 +1,6 @@
 // Words for what stands around the data of a command: route, timer, end code, command and subcommand.
 
+import { endCodeDigits } from '../../basics/end-code-digits'
 import { hex } from '../../basics/hex'
 import type { Declaration } from '../../codec/codec'
 import type { Leaf } from '../../codec/explanation'
@@ -57,7 +58,7 @@ function moduleIoText(value: number): string {
 
 /** An end code in words: meaning, likely cause, remedy. */
 export function endCodeText(family: MelsecEndCodeFamily, endCode: number, commandName?: string): string {
-  const code = `${hex(endCode, family === 'slmp' ? 4 : 2)}H`
+  const code = `${endCodeDigits(endCode, family)}H`
   if (endCode === 0) return `${code} (carried out)`
   return `${code} (refused${textOf(family, endCode, commandName)}`
 }
