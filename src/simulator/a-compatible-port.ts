@@ -6,17 +6,11 @@ import { type DataCode, type Message, writerOf } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { HeadProtocol, NamedCommand, RequestFrame } from '../link/link'
 import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-compatible/commands'
+import { type DeviceProblem, deviceProblem, pointLimit } from '../melsec/a-compatible/device-rules'
 import { slmpNameOf } from '../melsec/a-compatible/names'
 import { aCompatibleProtocol } from '../melsec/a-compatible/protocol'
-import {
-  type ACompatibleFamily,
-  type ACompatibleProblem,
-  aCompatibleLimit,
-  aCompatibleProblem,
-  fromFrame,
-  fx5Over1e,
-  type OddBits,
-} from '../melsec/a-compatible/rules'
+import { type ACompatibleFamily, aCompatibleRules, fx5Over1e, type OddBits } from '../melsec/a-compatible/rules'
+import { fromFrame } from '../melsec/a-compatible/windows'
 import type { CommandName } from '../melsec/commands/commands'
 import type { DeviceAddress } from '../melsec/device/device'
 import { type Head1e, mayEndWithZero, zeroBehind } from '../melsec/frame/frame-1e'
@@ -28,7 +22,7 @@ const END = { command: 0x50, asciiConversion: 0x54, device: 0x56, points: 0x57, 
 /** Abnormal codes behind end code 5B. */
 const ABNORMAL = { pc: 0x10, remote: 0x18 } as const
 
-const END_CODES: Readonly<Record<ACompatibleProblem['kind'], number>> = {
+const END_CODES: Readonly<Record<DeviceProblem['kind'], number>> = {
   device: END.device,
   points: END.points,
   range: END.points,
@@ -148,7 +142,7 @@ export class ACompatiblePort {
   #list(name: ACompatibleCommandName, elements: unknown): readonly Message[] {
     // The shape of the declaration: decoded by it.
     const list = elements as readonly { readonly device: DeviceAddress }[]
-    const max = aCompatibleLimit(name, 'M') ?? 0
+    const max = pointLimit(aCompatibleRules, name, 'M') ?? 0
     if (list.length > max) throw new Refusal(END.points, `${name}: ${list.length} devices, at most ${max}`)
     return list.map((element) => ({ ...element, device: this.#device(name, element.device, 1) }))
   }
@@ -160,7 +154,7 @@ export class ACompatiblePort {
     if (device === undefined) {
       throw new Refusal(END.device, `1E does not reach ${address.device}${address.number}`)
     }
-    const problem = aCompatibleProblem(windows, name, device, points)
+    const problem = deviceProblem(aCompatibleRules, windows, name, device, points)
     if (problem !== undefined) throw new Refusal(END_CODES[problem.kind], problem.message)
     const exclusion = this.#profile.exclusions1e?.find(
       ({ commands, devices }) => commands.includes(slmpNameOf(name)) && devices.includes(device.device),

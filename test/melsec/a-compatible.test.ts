@@ -5,15 +5,10 @@ import type { Declaration, Message, Named } from '../../src/codec/codec'
 import { RequestError } from '../../src/errors'
 import type { NamedCommand } from '../../src/link/link'
 import { type ACompatibleCommandName, aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
+import { pointLimit } from '../../src/melsec/a-compatible/device-rules'
 import { type ACompatibleOptions, aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
-import {
-  aCompatibleLimit,
-  aCompatibleLimits,
-  fromFrame,
-  fx3Over1e,
-  fx5Over1e,
-  toFrame,
-} from '../../src/melsec/a-compatible/rules'
+import { aCompatibleLimits, aCompatibleRules, fx3Over1e, fx5Over1e } from '../../src/melsec/a-compatible/rules'
+import { fromFrame, toFrame } from '../../src/melsec/a-compatible/windows'
 import { type DeviceName, deviceInfo } from '../../src/melsec/device/device'
 import { bytesOf, vectorsOfKind } from '../vectors/vectors'
 
@@ -136,7 +131,7 @@ describe('limits', () => {
     expect(exchange(name, message(max)).title).toBe(aCompatibleCommands[name].title)
     expect(refused(name, message(max + 1))).toMatchObject({ code: 'LIMIT_EXCEEDED', field: 'head' })
     expect(refused(name, message(0))).toBeInstanceOf(RequestError)
-    expect(aCompatibleLimit(name, heads[of].device)).toBe(max)
+    expect(pointLimit(aCompatibleRules, name, heads[of].device)).toBe(max)
   })
 
   test('random writes take 80 bits or 10 words', () => {

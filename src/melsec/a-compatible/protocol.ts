@@ -2,22 +2,13 @@ import { hex } from '../../basics/hex'
 import { type DataCode, type Message, readerOf } from '../../codec/codec'
 import { EndCodeError, RequestError } from '../../errors'
 import { HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/link'
-import { checkAddress } from '../device/access'
 import { FORM_XY_OCTAL } from '../device/codec'
-import type { DeviceAddress } from '../device/device'
 import { refusalTexts } from '../end-codes/end-code'
 import { factsOf } from '../end-codes/facts'
 import { frame1e, type Head1e } from '../frame/frame-1e'
-import { type ACompatibleCommandName, aCompatibleCommands, isACompatible } from './commands'
-import {
-  type ACompatibleFamily,
-  aCompatibleLimit,
-  checkACompatible,
-  fx5Over1e,
-  type OddBits,
-  toFrame,
-  windowOf,
-} from './rules'
+import { aCompatibleCommands, isACompatible } from './commands'
+import { addressesOf, sizeOf, withFrameNames } from './frame-names'
+import { type ACompatibleFamily, aCompatibleRules, fx5Over1e, type OddBits } from './rules'
 
 export interface ACompatibleOptions {
   readonly code: DataCode
@@ -51,7 +42,7 @@ export function aCompatibleProtocol(options: ACompatibleOptions): HeadProtocol<H
       const { name } = command
       if (!isACompatible(name)) throw new RequestError('UNSUPPORTED', `A 1E frame has no command ${name}.`, name)
       if (code === 'ascii') checkAscii(command, message, asciiXy, oddBits)
-      return prepared(family, name, message)
+      return withFrameNames(aCompatibleRules, family.windows, name, message)
     },
     dummies: (command, request, side) =>
       code === 'ascii' && oddBits === 'padded' && isOdd(command, request, side) ? 1 : 0,
@@ -81,68 +72,6 @@ function checkAscii(command: NamedCommand, message: Message, asciiXy: unknown, o
       'asciiXy',
     )
   }
-}
-
-/** The message with the devices under their names in the frame. What is no message at all is left to the encoder. */
-function prepared(family: ACompatibleFamily, command: ACompatibleCommandName, message: Message): Message {
-  const { windows } = family
-  const moved = (address: DeviceAddress, points: number, path: string): DeviceAddress => {
-    checkPlain(address, path)
-    checkACompatible(windows, command, address, points, path)
-    const window = windowOf(windows, address)
-    return window === undefined ? address : toFrame(window, address)
-  }
-  if (isAddress(message.head)) {
-    const points = typeof message.points === 'number' ? message.points : sizeOf(message.values)
-    return { ...message, head: moved(message.head, points ?? 1, 'head') }
-  }
-  const list = command === 'writeRandomBits' ? 'bits' : command === 'writeRandomWords' ? 'words' : undefined
-  const elements = list === undefined ? undefined : message[list]
-  if (list === undefined || !Array.isArray(elements)) return message
-  const devices: unknown[] = elements
-  checkCount(command, list, devices)
-  return {
-    ...message,
-    [list]: devices.map((element, i) =>
-      isMessage(element) && isAddress(element.device)
-        ? { ...element, device: moved(element.device, 1, `${list}.${i}.device`) }
-        : element,
-    ),
-  }
-}
-
-function checkPlain(address: DeviceAddress, path: string): void {
-  checkAddress(address)
-  const { extension, extensionIndex, index, indirect } = address
-  if (extension ?? extensionIndex ?? index ?? indirect) {
-    throw new RequestError('UNSUPPORTED', 'A 1E frame takes no J, U, index register or @: use a 3E or 4E frame.', path)
-  }
-}
-
-function checkCount(command: ACompatibleCommandName, list: string, devices: readonly unknown[]): void {
-  // Bit devices and word devices alike (FX5 communication manual 39.1).
-  const max = aCompatibleLimit(command, 'M') ?? 0
-  if (devices.length <= max) return
-  throw new RequestError('LIMIT_EXCEEDED', `${devices.length} devices in one request, at most ${max}. Split it.`, list)
-}
-
-/** The devices of a request. */
-export function addressesOf(message: Message): readonly DeviceAddress[] {
-  const holders = [message.bits, message.words].flatMap((list): unknown[] => (Array.isArray(list) ? list : []))
-  const devices = holders.map((element) => (isMessage(element) ? element.device : undefined))
-  return [message.head, ...devices].filter(isAddress)
-}
-
-function isMessage(value: unknown): value is Message {
-  return typeof value === 'object' && value !== null
-}
-
-function isAddress(value: unknown): value is DeviceAddress {
-  return isMessage(value) && typeof value.device === 'string'
-}
-
-function sizeOf(value: unknown): number | undefined {
-  return Array.isArray(value) || (ArrayBuffer.isView(value) && 'length' in value) ? Number(value.length) : undefined
 }
 
 function refusal(code: DataCode, command: NamedCommand, frame: ResponseFrame): EndCodeError {

@@ -17,7 +17,8 @@ import type { ExchangeOptions } from '../protocol'
 import { aCompatibleCommands } from './commands'
 import { isOver1e, over1e } from './names'
 import { type ACompatibleOptions, aCompatibleProtocol } from './protocol'
-import { type ACompatibleFamily, type ACompatibleWindow, windowOf } from './rules'
+import type { ACompatibleFamily } from './rules'
+import { type DeviceWindow, windowOf } from './windows'
 
 const NO_NAME = ''
 const NAME_LENGTH = 16
@@ -182,7 +183,7 @@ class SlmpOver1e implements ClientProtocol {
   }
 }
 
-function endOf({ number, points }: ACompatibleWindow): number {
+function endOf({ number, points }: DeviceWindow): number {
   return number + points
 }
 
