@@ -195,13 +195,17 @@ export class Attempt implements LineUser {
     else if (outcome.kind === 'unproved') this.#unproved(job)
     else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
     // `disconnected` is met by `end` only.
-    else if (outcome.kind === 'failed') job.fail(outcome.error)
+    else if (outcome.kind === 'failed') this.#failed(job, outcome.error)
   }
 
   #answered(job: Call, frame: ResponseFrame, sentAt: number | undefined): void {
     const { counters } = this.#owner
     const isProbe = this.#opening.owns(job)
     this.#silent = 0
+    if (this.#line.canRecover && !this.#over && job.wasDamaged(frame)) {
+      this.submit(job)
+      return
+    }
     const roundTrip = sentAt === undefined ? undefined : this.#options.clock.now() - sentAt
     const error = job.answer(frame, roundTrip)
     if (!isProbe) {
@@ -219,6 +223,16 @@ export class Attempt implements LineUser {
       if (locked === undefined) this.#owner.proved()
       else this.#lost(locked)
     }
+  }
+
+  /** The answer was damaged, or half of it is missing. Elsewhere than on a line that can recover, that ends the line. */
+  #failed(job: Call, error: PlcError): void {
+    if (this.#line.canRecover && !this.#over && job.mayRepeat()) {
+      this.submit(job)
+      return
+    }
+    job.fail(error)
+    if (this.#opening.owns(job)) this.#lost(error)
   }
 
   #timedOut(job: Call, sent: boolean): void {

@@ -1,5 +1,5 @@
 import { checkNames, type OptionNames } from '../../basics/option-checks'
-import { ClosedError, type PlcError, RequestError } from '../../errors'
+import { ClosedError, EndCodeError, type PlcError, RequestError } from '../../errors'
 import type { BodyLength, Exchange, Head, Job, Priority, ResponseFrame, RoundTrips } from '../../link/link'
 import { abortedBeforeSending, asPlcError } from './failure'
 
@@ -93,6 +93,8 @@ export class Call implements Job {
   #signal: AbortSignal | undefined
   #unwatch: (() => void) | undefined
   #settled = false
+  /** Sent a second time. */
+  #repeated = false
   readonly #settle: Settle
   /** Set for what opens a locked PLC: until then it returns no self test. */
   needsNoProof = false
@@ -155,6 +157,33 @@ export class Call implements Job {
   abortedBy(signal: AbortSignal, unwatch: () => void): void {
     this.#signal = signal
     this.#unwatch = unwatch
+  }
+
+  /**
+   * Whether its answer may be asked for once more, because what came was damaged. Not of what changes the PLC: it may have
+   * been carried out.
+   */
+  mayRepeat(): boolean {
+    const { effect } = this.exchange
+    return (effect === 'read' || effect === 'diagnose') && this.#isFirst()
+  }
+
+  /** Whether the PLC says that the request arrived damaged, so that nothing was done: it may be sent once more. */
+  wasDamaged(frame: ResponseFrame): boolean {
+    if (frame.endCode === 0) return false
+    try {
+      this.exchange.decode(frame)
+      return false
+    } catch (error) {
+      const isDamaged = error instanceof EndCodeError && error.about === 'transmission' && error.carriedOut === false
+      return isDamaged && this.#isFirst()
+    }
+  }
+
+  #isFirst(): boolean {
+    const isFirst = !this.#repeated && !this.#settled
+    this.#repeated = true
+    return isFirst
   }
 
   /** Settles with the answer. @returns the error the answer turned out to be, if any. */

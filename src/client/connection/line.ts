@@ -6,6 +6,7 @@ import {
   type Echo,
   Fence,
   type JobEnd,
+  type RecoveryOptions,
   type RequestFrame,
   type Sent,
   SerialNumbers,
@@ -26,6 +27,8 @@ export interface LineOptions {
   readonly inFlight: number
   /** ms */
   readonly connectTimeout: number
+  /** How the line is brought to a known state, for framings that have a way to; without it the line is dropped instead. */
+  readonly recovery?: RecoveryOptions
   /** Default deadline of a call, ms: the proof of a fixed port is asked again several times within it. */
   readonly timeout: number
   /**
@@ -107,6 +110,11 @@ export class Line {
     return this.#carrier?.transport.kind
   }
 
+  /** Whether silence and damaged answers cost a request and not the line. */
+  get canRecover(): boolean {
+    return this.#options.recovery !== undefined && this.framing.recovery !== undefined && this.kind !== 'datagram'
+  }
+
   get framing(): AnswerFraming {
     return this.#options.framing
   }
@@ -186,10 +194,11 @@ export class Line {
   }
 
   #opened(carrier: Carrier): void {
-    const { framing, inFlight } = this.#options
+    const { framing, inFlight, recovery } = this.#options
     const { transport } = carrier
     carrier.openBy = undefined
-    const options = { kind: transport.kind, window: inFlight, serials: this.#serials }
+    const given = { kind: transport.kind, window: inFlight, serials: this.#serials }
+    const options = recovery === undefined ? given : { ...given, recovery }
     carrier.session = new Session<Call>(framing, options, this.#fenceFor(transport))
     for (const user of [...this.#users]) if (this.#users.has(user)) user.opened()
     this.flush()
