@@ -100,6 +100,32 @@ export function decodeValue(type: ValueType, words: Words, offset: number, forma
   return isMelsecOrder(format) ? read(words, offset) : read(rearranged(words, offset, 1, size, format), 0)
 }
 
+type Decoder = (words: Words, offset: number) => PlcValue
+
+/** Made once for each type, for whoever reads the same values again and again. */
+const decoders = new Map<NumberName, Decoder>()
+
+/**
+ * Reads values of one type and format, as `decodeValue` does; what can be found out beforehand is.
+ * @throws RequestError BAD_TYPE, BAD_OPTION
+ * @example decoderOf(parseType('DINT'))([1, 0], 0) // 1
+ */
+export function decoderOf(type: ValueType, format = melsecOrder): Decoder {
+  checkFormat(format)
+  const size = wordsOf(type)
+  if (isText(type) || !isMelsecOrder(format)) return (words, offset) => decodeValue(type, words, offset, format)
+  const name = numberName(type)
+  const known = decoders.get(name)
+  if (known !== undefined) return known
+  const read = readers[name]
+  const decoder: Decoder = (words, offset) => {
+    requireWords(words, offset, size)
+    return read(words, offset)
+  }
+  decoders.set(name, decoder)
+  return decoder
+}
+
 /**
  * `count` values that follow one another from an offset, each in `wordsOf(type)` words.
  *

@@ -1,6 +1,6 @@
 /** Typed values over words of 16 bits: the public names of this room. */
 export { valueOfBytes } from './bytes'
-export { decodeArray, decodeValue, encodeArray, encodeValue } from './convert'
+export { decodeArray, decoderOf, decodeValue, encodeArray, encodeValue } from './convert'
 export { checkFormat, type Encoding, encodings, formatOptions, type ValueFormat } from './format'
 export { bytesOfText, textOfBytes } from './text'
 export {

@@ -2,6 +2,7 @@ import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import {
   decodeArray,
+  decoderOf,
   decodeValue,
   encodeArray,
   encodeValue,
@@ -23,6 +24,9 @@ describe.each(orders)('arrays in order %j', (order) => {
         expect(decodeArray(type, framed, 3, elements.length, order)).toEqual(elements)
         for (const [index, value] of elements.entries())
           expect(decodeValue(type, framed, 3 + index * size, order)).toBe(value)
+        const decode = decoderOf(type, order)
+        for (const [index, value] of elements.entries()) expect(decode(framed, 3 + index * size)).toBe(value)
+        expect(() => decode(framed, framed.length)).toThrow(`${size} words from offset ${framed.length} are needed`)
       }),
       { numRuns: 40 },
     )
@@ -99,6 +103,7 @@ describe('a format', () => {
     const runs: [(...parameters: never[]) => unknown, unknown[]][] = [
       [decodeValue, [type, [0], 0, format]],
       [decodeArray, [type, [0], 0, 1, format]],
+      [decoderOf, [type, format]],
       [encodeValue, [type, 0, format]],
       [encodeArray, [type, [0], format]],
     ]

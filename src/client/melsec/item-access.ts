@@ -12,7 +12,7 @@ import type { AddressOptions } from '../../melsec/device/address'
 import { frameFacts } from '../../melsec/frame/frames'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { isItem, listOf } from '../item/input-checks'
-import { type Item, type ParsedItem, parseItem } from '../item/item'
+import { type Item, type ItemParseOptions, type ParsedItem, parseItem } from '../item/item'
 import type { WriteEntry } from '../item/item-value'
 import { asPlainValue } from '../item/plain-values'
 import { checkAllWritten } from '../item/write-outcome'
@@ -50,6 +50,7 @@ export interface ItemParts {
 export class ItemAccess {
   readonly #parts: ItemParts
   readonly #lender: LabelLender
+  readonly #itemOptions: ItemParseOptions
   readonly #prepared = new Map<string, ReadPlan>()
   /** Of lists of one item, by its text. */
   readonly #preparedAlone = new Map<string, ReadPlan>()
@@ -59,6 +60,7 @@ export class ItemAccess {
   constructor(parts: ItemParts) {
     const { settings, protocol } = parts
     this.#parts = parts
+    this.#itemOptions = { ...this.#notation, format: settings.format }
     this.#lender = { protocol, format: settings.labelFormat, time: () => settings.clock.time() }
   }
 
@@ -178,9 +180,9 @@ export class ItemAccess {
     if (hasPrefix(item)) return this.#askable(parsedLabel(item))
     const longCounter = this.#longCounter(item)
     if (longCounter !== undefined) return longCounter
-    const { xyUnknown, format, profile } = this.#parts.settings
+    const { xyUnknown, profile } = this.#parts.settings
     try {
-      const parsed = this.#renamed(parseItem(item, { ...this.#notation, format }))
+      const parsed = this.#renamed(parseItem(item, this.#itemOptions))
       if (xyUnknown) refuseAmbiguousXy(item, parsed)
       return parsed
     } catch (error) {

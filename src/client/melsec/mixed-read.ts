@@ -39,7 +39,7 @@ export class MixedItems {
   constructor(items: readonly AnyItem[]) {
     this.#items = items
     this.labels = items.filter(isLabel)
-    this.devices = items.flatMap((item) => (isLabel(item) ? [] : [item]))
+    this.devices = items.filter((item): item is ParsedItem | RefusedItem => !isLabel(item))
   }
 
   merged(devices: readonly ReadResult[], labels: readonly LabelOutcome[]): ReadResult[] {

@@ -1,6 +1,7 @@
 // Values out of the words of an answer, by numbers that were worked out when the plan was made: nothing is parsed here.
 import {
   decodeArray,
+  decoderOf,
   decodeValue,
   type PlcValue,
   type ValueFormat,
@@ -10,7 +11,7 @@ import {
 } from '../../value/value'
 import { wordAt } from '../../value/word'
 import type { ParsedItem } from '../item/item'
-import type { Layout, Piece } from './layout'
+import type { Piece } from './layout'
 
 /** Where the values of a piece stand in the words of an answer; bits are counted from the lowest of word 0. */
 export interface Place {
@@ -26,6 +27,8 @@ export interface Place {
   readonly isArray: boolean
   /** The values are the words themselves. */
   readonly isWords: boolean
+  /** Of one value of whole words. */
+  readonly decode?: (words: Words, offset: number) => PlcValue
   readonly type: ValueType
   readonly format: ValueFormat
 }
@@ -35,6 +38,9 @@ export function placeOf(piece: Piece, item: ParsedItem, from: number, cell: numb
   const { layout, first, count } = piece
   const { start, width, step, pitch, area } = layout
   const at = from + start + first * pitch - cell * area.bitsPerCell
+  const isBit = item.type.name === 'BOOL'
+  const isWhole = !isBit && step === 1 && width % 16 === 0 && pitch % 16 === 0 && at % 16 === 0
+  const isArray = item.count !== undefined
   return {
     item: piece.item,
     part: piece.part,
@@ -43,9 +49,11 @@ export function placeOf(piece: Piece, item: ParsedItem, from: number, cell: numb
     step,
     pitch,
     count,
-    kind: item.type.name === 'BOOL' ? 'bits' : isWhole(layout, at) ? 'values' : 'digits',
-    isArray: item.count !== undefined,
-    isWords: isWord(item) && pitch === width && isWhole(layout, at),
+    // Every value is words of their own, or its bits are looked for one by one.
+    kind: isBit ? 'bits' : isWhole ? 'values' : 'digits',
+    isArray,
+    isWords: isWord(item) && pitch === width && isWhole,
+    ...(isWhole && !isArray ? { decode: decoderOf(item.type, item.format) } : {}),
     type: item.type,
     format: item.format,
   }
@@ -55,18 +63,13 @@ function isWord({ type: { name }, format }: ParsedItem): boolean {
   return (name === 'UINT' || name === 'WORD') && format.byteOrder !== 'high-first'
 }
 
-/** Whether every value is words of their own. */
-function isWhole({ width, step, pitch }: Layout, at: number): boolean {
-  return step === 1 && [width, pitch, at].every((bits) => bits % 16 === 0)
-}
-
 /** @throws ProtocolError BAD_FIELD when the words are no value of the type. */
 export function valueAt(words: Words, place: Place): PlcValue | PlcValue[] {
-  const { kind, at, type, format, isArray, count } = place
+  const { kind, at, type, format, isArray, count, decode } = place
+  if (decode !== undefined) return decode(words, at / 16)
   if (kind === 'bits') return isArray ? bitsAt(words, place) : isSet(words, at)
   if (place.isWords && isArray)
     return wordsAt(words, at / 16, count) ?? decodeArray(type, words, at / 16, count, format)
-  if (kind === 'values' && !isArray) return decodeValue(type, words, at / 16, format)
   if (kind === 'values' && place.pitch === place.width) return decodeArray(type, words, at / 16, count, format)
   const gathered = kind === 'values' ? recordsAt(words, place) : digitsAt(words, place)
   return isArray ? decodeArray(type, gathered, 0, count, format) : decodeValue(type, gathered, 0, format)

@@ -65,11 +65,9 @@ function foundIn(
 ): FoundDevice {
   const { points, values } = holder
   const count = typeof points === 'number' ? points : isArrayLike(values) ? values.length : undefined
-  const use = {
-    command: command.name,
-    ...(list === undefined ? {} : { list }),
-    ...(count === undefined ? {} : { points: count }),
-  }
+  const use: { readonly command: string; list?: string; points?: number } = { command: command.name }
+  if (list !== undefined) use.list = list
+  if (count !== undefined) use.points = count
   // The names come from the declarations, which device-access knows: commands with an address and their lists.
   return { path, address: holder[field] as DeviceAddress, use: use as DeviceUse }
 }
