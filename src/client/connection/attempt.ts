@@ -225,13 +225,16 @@ export class Attempt implements LineUser {
     }
   }
 
-  /** The answer was damaged, or half of it is missing. Elsewhere than on a line that can recover, that ends the line. */
+  /** The answer was damaged, or half of it is missing. Elsewhere than on a line that can recover, the line ends with it. */
   #failed(job: Call, error: PlcError): void {
-    if (this.#line.canRecover && !this.#over && job.mayRepeat()) {
+    const goesOn = this.#line.canRecover && !this.#over
+    if (goesOn && job.mayRepeat()) {
       this.submit(job)
       return
     }
     job.fail(error)
+    if (!goesOn) return
+    this.#owner.counters.add('protocolErrors')
     if (this.#opening.owns(job)) this.#lost(error)
   }
 
