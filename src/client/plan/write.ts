@@ -122,8 +122,8 @@ export class DeviceWrite {
    * Writes all entries once, one request after another.
    *
    * - A merged request that is refused because of a device was not carried out: its entries are written one by one.
-   *   Any other end code goes to all its entries, and the next request is sent.
-   * - After any other failure nothing more is sent: the entries left over get an error with the outcome `notSent`.
+   *   Any other refusal goes to all its entries, and the next request is sent.
+   * - After any other failure, an end code with which it may have been carried out among them, nothing more is sent: the entries left over get an error with the outcome `notSent`.
    *
    * @param send what it rejects with is a `PlcError`
    * @returns a result for each entry, in their order; it rejects only with what is no `PlcError`, which is a bug
