@@ -28,6 +28,8 @@ const IN_A_ROW = 8
 export class Scheduler<J extends Scheduled> {
   /** In the order of the priorities. `inARow`: how many of the priority went while a lower one waited. */
   readonly #lanes = PRIORITIES.map(() => ({ queue: new Queue<J>(), inARow: 0 }))
+  /** The only one that waits, outside the queues: between the requests of most programs nothing does, and it goes at once. */
+  #only: J | undefined
   #size = 0
   /** How many of them have a time before which they do not go. */
   #timed = 0
@@ -37,28 +39,53 @@ export class Scheduler<J extends Scheduled> {
   }
 
   add(job: J): void {
-    this.#queueOf(job)?.add(job)
+    if (this.#size === 0) this.#only = job
+    else {
+      this.#queueOnly()
+      this.#queueOf(job)?.add(job)
+    }
     this.#count(job, 1)
+  }
+
+  #queueOnly(): void {
+    const only = this.#only
+    this.#only = undefined
+    if (only !== undefined) this.#queueOf(only)?.add(only)
   }
 
   /** The one whose turn it is; `undefined` when none may go yet. */
   peek(now: number): J | undefined {
+    if (this.#only !== undefined) return mayGo(this.#only, now) ? this.#only : undefined
     return this.#lanes[this.#next(now)]?.queue.first(now)
   }
 
   /** Takes the one that `peek` shows. */
   take(now: number): J | undefined {
+    const only = this.#only
+    if (only !== undefined) return mayGo(only, now) ? this.#takeOnly(only) : undefined
     const rank = this.#next(now)
     const lane = this.#lanes[rank]
     const job = lane?.queue.take(now)
     if (lane === undefined || job === undefined) return undefined
     this.#count(job, -1)
+    this.#endRows(rank)
+    if (this.#lowerWaits(rank, now)) lane.inARow += 1
+    return job
+  }
+
+  #takeOnly(job: J): J {
+    this.#only = undefined
+    this.#count(job, -1)
+    this.#endRows(rankOf(job))
+    return job
+  }
+
+  /** One of this rank goes: those before it begin to count anew. */
+  #endRows(rank: number): void {
     for (let higher = 0; higher < rank; higher++) {
       const passed = this.#lanes[higher]
       if (passed !== undefined) passed.inARow = 0
     }
-    if (this.#lowerWaits(rank, now)) lane.inARow += 1
-    return job
   }
 
   /** When the first of those may go that may not yet; `undefined` when there is none. */
@@ -73,12 +100,15 @@ export class Scheduler<J extends Scheduled> {
 
   /** @returns whether it was waiting */
   remove(job: J): boolean {
-    const wasThere = this.#queueOf(job)?.remove(job) ?? false
+    const wasOnly = this.#only === job
+    if (wasOnly) this.#only = undefined
+    const wasThere = wasOnly || (this.#queueOf(job)?.remove(job) ?? false)
     if (wasThere) this.#count(job, -1)
     return wasThere
   }
 
   *[Symbol.iterator](): Generator<J> {
+    if (this.#only !== undefined) yield this.#only
     for (const { queue } of this.#lanes) yield* queue
   }
 
@@ -86,6 +116,7 @@ export class Scheduler<J extends Scheduled> {
   clear(): J[] {
     const all = [...this]
     for (const { queue } of this.#lanes) queue.clear()
+    this.#only = undefined
     this.#size = 0
     this.#timed = 0
     return all
@@ -96,8 +127,8 @@ export class Scheduler<J extends Scheduled> {
     if (notBefore !== undefined) this.#timed += by
   }
 
-  #queueOf({ priority = 'read' }: J): Queue<J> | undefined {
-    return this.#lanes[PRIORITIES.indexOf(priority)]?.queue
+  #queueOf(job: J): Queue<J> | undefined {
+    return this.#lanes[rankOf(job)]?.queue
   }
 
   /** Rank of the priority whose turn it is; -1 when nothing may go. */
@@ -238,7 +269,7 @@ class InOrder<J extends Scheduled> implements Waiting<J> {
 
   first(now: number): J | undefined {
     const [job] = this.#jobs
-    return job === undefined || (job.notBefore ?? now) > now ? undefined : job
+    return job !== undefined && mayGo(job, now) ? job : undefined
   }
 
   take(now: number): J | undefined {
@@ -259,6 +290,15 @@ class InOrder<J extends Scheduled> implements Waiting<J> {
   [Symbol.iterator](): Iterator<J> {
     return this.#jobs[Symbol.iterator]()
   }
+}
+
+/** Where its priority stands among them. */
+function rankOf({ priority = 'read' }: Scheduled): number {
+  return PRIORITIES.indexOf(priority)
+}
+
+function mayGo({ notBefore = Number.NEGATIVE_INFINITY }: Scheduled, now: number): boolean {
+  return notBefore <= now
 }
 
 function plcOf(job: Scheduled): unknown {

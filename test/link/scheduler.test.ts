@@ -117,6 +117,21 @@ describe('the rest', () => {
     expect(order(scheduler)).toBe('a2 b')
   })
 
+  test('one that waits alone is peeked at, listed, held back, given up and joined by others as any', () => {
+    const alone: Job = { name: 'alone', caller: 'A', notBefore: 5 }
+    const scheduler = schedule(alone)
+    expect([scheduler.peek(4), scheduler.take(4)]).toEqual([undefined, undefined])
+    expect([scheduler.peek(5), scheduler.due(4), [...scheduler], scheduler.size]).toEqual([alone, 5, [alone], 1])
+    expect([scheduler.remove({ name: 'another' }), scheduler.remove(alone), scheduler.size]).toEqual([false, true, 0])
+    expect([scheduler.peek(9), scheduler.remove(alone), scheduler.due(4)]).toEqual([undefined, false, undefined])
+    scheduler.add(alone)
+    for (const job of [{ name: 'behind', caller: 'A' }, { name: 'other' }]) scheduler.add(job)
+    expect([scheduler.take(4)?.name, scheduler.take(4)]).toEqual(['other', undefined])
+    expect([scheduler.take(5), scheduler.take(5)?.name, scheduler.size]).toEqual([alone, 'behind', 0])
+    scheduler.add(alone)
+    expect([scheduler.clear(), scheduler.size, scheduler.peek(9)]).toEqual([[alone], 0, undefined])
+  })
+
   test('what is removed does not go; what is not there cannot be removed', () => {
     const [a, b, c] = numbered('r', 3)
     const scheduler = schedule(...([a, b, c] as Job[]))

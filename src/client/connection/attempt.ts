@@ -165,7 +165,7 @@ export class Attempt implements LineUser {
   /** Why nothing may be sent any more without a new attempt. */
   expired(): PlcError | undefined {
     if (this.#line.kind !== 'datagram' || this.inFlight > 0) return undefined
-    return this.#opening.expired(this.#options.clock.now(), this.peer)
+    return this.#opening.expired(this.#options.clock.now(), () => this.peer)
   }
 
   /** What the PLC refuses has been corrected. */

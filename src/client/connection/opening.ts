@@ -84,9 +84,9 @@ export class Opening {
   }
 
   /** Over UDP: why the PLC must be locked by now although nobody closed the connection. */
-  expired(now: number, peer: string): PlcError | undefined {
+  expired(now: number, peer: () => string): PlcError | undefined {
     if (now - this.#heardAt < UNLOCKED_FOR) return undefined
-    return this.#options.unlocking?.exchange() === undefined ? undefined : failure.unlockExpired(peer)
+    return this.#options.unlocking?.exchange() === undefined ? undefined : failure.unlockExpired(peer())
   }
 
   /** Why a refused request says that the PLC is locked again. */
