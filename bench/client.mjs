@@ -4,7 +4,7 @@ import { createSocket } from 'node:dgram'
 import { once } from 'node:events'
 import { createRequire } from 'node:module'
 import { connect } from 'node:net'
-import { compare, costPerCall, row, title } from './measure.mjs'
+import { compare, costPerCall, row, times, title } from './measure.mjs'
 
 const require = createRequire(import.meta.url)
 const { createMelsecClient } = require('../dist/src/index.js')
@@ -143,7 +143,7 @@ export async function benchClient() {
     await benchTcp(server.ports.tcp, 'binary', { withBlocks: true })
     await benchTcp(server.ports.tcp, 'ascii', { withBlocks: false })
     await benchUdp(server.ports.udp, 'answered at once')
-    await benchUdp(server.ports.slow, 'answered after 2 ms', { rounds: 9, calls: 60 })
+    await benchUdp(server.ports.slow, 'answered after 2 ms', { rounds: times(9), calls: 60 })
   } finally {
     server.stop()
   }

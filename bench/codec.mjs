@@ -54,9 +54,7 @@ function benchRequests() {
     for (const points of [1, WORDS]) {
       const message = { head: { device: 'D', number: 100 }, points }
       const exchange = protocol.exchange(commands.readWords, message)
-      const request = nanosPerCall(() =>
-        protocol.framing.request.write(exchange.head, 1, protocol.exchange(commands.readWords, message).body),
-      )
+      const request = nanosPerCall(() => protocol.exchange(commands.readWords, message).write(1))
       const frame = answerFrame(protocol, code, points)
       const answer = nanosPerCall(() => exchange.decode(protocol.framing.response.scan(frame, () => undefined).frame))
       row(`Read (word units), ${points} point(s), 4E ${code}`, (request / 1000).toFixed(2), (answer / 1000).toFixed(2))

@@ -10,7 +10,7 @@ v8.setFlagsFromString('--expose_gc')
 globalThis.gc = runInNewContext('gc')
 
 console.log(`Node.js ${process.version}, ${cpus().length} x ${cpus()[0]?.model ?? 'unknown processor'}`)
-// All of them, or those that are named: node bench/main.mjs planning
+// All of them, or those that are named: node bench/main.mjs planning. With --quick everything is done once.
 const benches = { client: benchClient, planning: benchPlanning, codec: benchCodec }
-const asked = process.argv.slice(2)
+const asked = process.argv.slice(2).filter((name) => name in benches)
 for (const [name, bench] of Object.entries(benches)) if (asked.length === 0 || asked.includes(name)) await bench()

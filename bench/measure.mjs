@@ -1,5 +1,11 @@
 // Timing that survives a noisy machine: several rounds, the alternatives in turn within each, medians quoted.
 
+/** Everything once, to see that it runs; the figures say nothing then. */
+export const isQuick = process.argv.includes('--quick')
+
+/** So many, or 1 where everything is done once. */
+export const times = (count) => (isQuick ? 1 : count)
+
 /** Median of numbers. */
 export function median(values) {
   const sorted = [...values].sort((a, b) => a - b)
@@ -7,7 +13,7 @@ export function median(values) {
 }
 
 /** Nanoseconds per call of a synchronous function: the median of `rounds`, each long enough for the clock. */
-export function nanosPerCall(run, { rounds = 9, milliseconds = 20 } = {}) {
+export function nanosPerCall(run, { rounds = times(9), milliseconds = times(20) } = {}) {
   let calls = 1
   for (;;) {
     const start = process.hrtime.bigint()
@@ -25,7 +31,8 @@ export function nanosPerCall(run, { rounds = 9, milliseconds = 20 } = {}) {
 }
 
 /** Processor microseconds and wall microseconds per call of an asynchronous function, called one after another. */
-export async function costPerCall(run, calls) {
+export async function costPerCall(run, wanted) {
+  const calls = times(wanted)
   const cpu = process.cpuUsage()
   const start = process.hrtime.bigint()
   for (let i = 0; i < calls; i++) await run()
@@ -38,7 +45,7 @@ export async function costPerCall(run, calls) {
  * Runs alternatives in turn, `rounds` times. Costs are medians over the rounds; ratios to the first alternative are
  * medians of the ratios within a round, so that a slow moment of the machine is in both.
  */
-export async function compare(alternatives, { rounds = 21, calls = 1000 } = {}) {
+export async function compare(alternatives, { rounds = times(21), calls = 1000 } = {}) {
   const entries = Object.entries(alternatives)
   for (const [, run] of entries) await costPerCall(run, 3 * calls)
   const costs = entries.map(() => [])

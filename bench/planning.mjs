@@ -2,13 +2,13 @@
 import { execFileSync } from 'node:child_process'
 import { createRequire } from 'node:module'
 import { fileURLToPath } from 'node:url'
-import { median, row, title } from './measure.mjs'
+import { median, row, times, title } from './measure.mjs'
 
 const require = createRequire(import.meta.url)
 const ITEMS = 100
-const ROUNDS = 15
-const PLANS = 40
-const PROCESSES = 7
+const ROUNDS = times(15)
+const PLANS = times(40)
+const PROCESSES = times(7)
 
 /** Scattered words, as a table of a SCADA system has them. */
 const scattered = (from) => Array.from({ length: ITEMS }, (_, i) => `D${from + i * 150}`)
