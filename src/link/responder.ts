@@ -27,7 +27,8 @@ export class Responder<H> {
   /**
    * Takes a chunk and returns the requests that are complete with it.
    * Bytes that are no such frame are thrown away and nothing is answered: that is what a PLC does with a wrong data
-   * code or frame (FX5 communication manual, C06F: "no response"). One datagram is one frame.
+   * code or frame (FX5 communication manual, C06F: "no response"). Where lines have noise the next frame is looked for
+   * behind it; elsewhere all that has come is thrown away. One datagram is one frame.
    */
   receive(chunk: Buffer): RequestFrame<H>[] {
     return this.#kind === 'datagram' ? this.#receiveDatagram(chunk) : this.#receiveStream(chunk)
@@ -41,15 +42,24 @@ export class Responder<H> {
   #receiveStream(chunk: Buffer): RequestFrame<H>[] {
     const requests: RequestFrame<H>[] = []
     let rest = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
-    while (rest.length > 0) {
+    for (rest = this.#withoutNoise(rest); rest.length > 0; rest = this.#withoutNoise(rest)) {
       const scanned = this.#scan(rest)
       if (scanned === undefined) break
       if (scanned !== null) requests.push(scanned.frame)
-      rest = scanned === null ? EMPTY : rest.subarray(scanned.used)
+      rest = scanned === null ? this.#behindRubbish(rest) : rest.subarray(scanned.used)
     }
     // A frame that does not end must not fill the memory.
     this.#received = rest.length > MAX_FRAME ? EMPTY : rest
     return requests
+  }
+
+  #withoutNoise(bytes: Buffer): Buffer {
+    return bytes.subarray(this.#framing.request.noise?.(bytes) ?? 0)
+  }
+
+  /** What may begin a frame and is none: its first byte is taken away, and noise is what follows up to the next start. */
+  #behindRubbish(bytes: Buffer): Buffer {
+    return this.#framing.request.noise === undefined ? EMPTY : bytes.subarray(1)
   }
 
   /** The request at the front; `undefined` when it is not complete, `null` when the bytes can never become one. */

@@ -2,7 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { Responder } from '../../src/link/link'
-import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
+import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { HEAD, slmpFrames } from './support'
 
 describe.each(slmpFrames)('$title', ({ framing }) => {
@@ -21,7 +21,7 @@ describe.each(slmpFrames)('$title', ({ framing }) => {
     expect(bodies([...bytes].flatMap((byte) => plc.receive(Buffer.of(byte))))).toEqual(['A', 'BB'])
   })
 
-  test('rubbish is answered by silence, and takes what stands behind it along', () => {
+  test('rubbish is answered by silence, and where lines have no noise takes what stands behind it along', () => {
     const plc = responder()
     expect(bodies(plc.receive(Buffer.concat([request('A'), Buffer.of(0xff), request('B')])))).toEqual(['A'])
     expect(bodies(plc.receive(request('C')))).toEqual(['C'])
@@ -68,10 +68,10 @@ describe.each(slmpFrames)('$title', ({ framing }) => {
 })
 
 test('a frame without a length is forgotten when it gets longer than any frame', () => {
-  const plc = new Responder(frame4cFormat5(), 'stream', () => undefined)
+  const plc = new Responder(serialFraming({ frame: '4C', format: 5 }), 'stream', () => undefined)
   const start = Buffer.from('1002', 'hex')
   expect(plc.receive(Buffer.concat([start, Buffer.alloc(70_000, 0x41)]))).toEqual([])
   const route = { station: 1, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
-  const request = frame4cFormat5().request.write(route, 0, Buffer.from('next'))
+  const request = serialFraming({ frame: '4C', format: 5 }).request.write(route, 0, Buffer.from('next'))
   expect(plc.receive(request).map(({ body }) => String(body))).toEqual(['next'])
 })

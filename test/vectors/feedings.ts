@@ -6,7 +6,14 @@
 import { expect, test } from '@jest/globals'
 import { ProtocolError } from '../../src/errors'
 import type { Head } from '../../src/link/link'
-import { type BodyLength, type Framing, Responder, Session, type SessionEvent } from '../../src/link/link'
+import {
+  type BodyLength,
+  type Framing,
+  Responder,
+  Session,
+  type SessionEvent,
+  type SessionOptions,
+} from '../../src/link/link'
 import { questionOf } from '../support/question'
 import type { Side } from './vectors'
 
@@ -49,8 +56,12 @@ function cuts(bytes: Buffer): Buffer[][] {
 }
 
 /** A session that has asked, and the answer with the serial number it asked with. */
-function asking<H extends Head>(given: FrameCase<H>, kind: 'stream' | 'datagram') {
-  const session = new Session(given.framing, { kind, window: 1 })
+function asking<H extends Head>(
+  given: FrameCase<H>,
+  kind: 'stream' | 'datagram',
+  recovery?: SessionOptions['recovery'],
+) {
+  const session = new Session(given.framing, { kind, window: 1, ...(recovery && { recovery }) })
   const { askedHead: head, bodyLength: responseLength } = given
   // Its frames have the head of the case, so that it is only asked with such ones.
   session.submit({ ...questionOf(given.framing, head, Buffer.alloc(0)), responseLength, deadline: DEADLINE }, 0)
@@ -125,11 +136,13 @@ function testResponder<H extends Head>(id: string, make: () => FrameCase<H>): vo
     expect(requests).toEqual([frameOf(given), frameOf(given)])
   })
 
-  test(`${id}: rubbish in front gives no request, and the next one is read`, () => {
+  test(`${id}: rubbish in front gives no request of its own, and the next one is read`, () => {
     const given = make()
     expect(() => scan(given, Buffer.concat([RUBBISH, given.bytes]))).toThrow(ProtocolError)
     const responder = receiving(given)
-    expect(responder.receive(Buffer.concat([RUBBISH, given.bytes]))).toEqual([])
+    // Where lines have noise the request behind it is found.
+    const found = given.framing.request.noise === undefined ? [] : [frameOf(given)]
+    expect(responder.receive(Buffer.concat([RUBBISH, given.bytes]))).toEqual(found)
     expect(responder.receive(given.bytes)).toEqual([frameOf(given)])
   })
 
@@ -178,6 +191,14 @@ function testSession<H extends Head>(id: string, make: () => FrameCase<H>): void
     const events = eventsOf(session)
     expect(events.map((event) => event.kind)).toEqual(['done', 'drop'])
     expect(events[0]).toMatchObject({ outcome: { kind: 'failed', error: { name: 'ProtocolError' } } })
+  })
+
+  test(`${id}: on a line with noise the answer behind it counts`, () => {
+    const given = make()
+    if (given.framing.recovery === undefined) return
+    const { session, answer } = asking(given, 'stream', { quiet: 1, betweenBytes: 1 })
+    for (const byte of Buffer.concat([RUBBISH, answer])) session.receive(Buffer.of(byte), 1)
+    expect(outcomesOf(eventsOf(session))).toEqual([answered(given)])
   })
 
   test(`${id}: one byte short is no answer`, () => {
