@@ -53,7 +53,7 @@ export interface AnswerFraming<H = Head> {
   readonly name: string
   /** How an answer finds its request: by a serial number in the frame, or only by the order of arrival. */
   readonly correlation: 'serial' | 'order'
-  /** On a line that is no connection: what ends whatever the peer was asked, so that no answer to it comes any more. */
+  /** On a line that is no connection: what ends whatever the peer was asked, so that no answer to it comes any more; empty: nothing does, but time. */
   readonly recovery?: Buffer
   readonly request: {
     /** As `response.noise`, for the PLC's side. */

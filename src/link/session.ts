@@ -442,7 +442,8 @@ export class Session<J extends Job = Job> {
   #recover(now: number): boolean {
     if (this.#recovery === undefined) return false
     this.#received.clear()
-    this.#output.unshift({ bytes: this.#recovery.begin(now), job: undefined, sent: false })
+    const bytes = this.#recovery.begin(now)
+    if (bytes.length > 0) this.#output.unshift({ bytes, job: undefined, sent: false })
     return true
   }
 

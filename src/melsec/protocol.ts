@@ -276,9 +276,10 @@ export class SlmpCommandSet {
     )
   }
 
-  /** The error information, when the answer holds all of it: 4C has none, and devices exist that shorten it. */
+  /** The error information, when the answer holds all of it: serial frames have none, and devices exist that shorten it. */
   #errorInformation(body: Buffer): ErrorInformation | undefined {
     const { errorInformation } = this.#layout
+    if (errorInformation === undefined) return undefined
     if (body.length < measure(errorInformation, { ascii: this.code === 'ascii', form: 0 })) return undefined
     return decode(errorInformation, readerOf(this.code, body))
   }
@@ -288,7 +289,32 @@ export class SlmpCommandSet {
    * @throws ProtocolError when the message does not fit the command (a CPU answers an end code to it).
    */
   readRequest(frame: Pick<RequestFrame, 'body'>): ReceivedRequest | UnknownRequest {
-    const head = readerOf(this.code, frame.body)
+    const read = this.#read(frame.body)
+    if ('unknown' in read) return read
+    const { request, reader } = read
+    reader.end()
+    return request
+  }
+
+  /**
+   * The PLC's side, where frames carry no length (format 1 of 3C and 4C): how long the body of a request is.
+   * `undefined` when more bytes are needed.
+   * @throws ProtocolError when the bytes are no request that is known: nobody can tell where it ends.
+   */
+  requestLength(soFar: Buffer): number | undefined {
+    try {
+      const read = this.#read(soFar)
+      if ('reader' in read) return this.dataAt + read.reader.position
+      throw new ProtocolError('BAD_FIELD', `There is no ${codes(read.unknown)}.`)
+    } catch (error) {
+      if (error instanceof ProtocolError && error.code === 'TRUNCATED') return undefined
+      throw error
+    }
+  }
+
+  /** A request at the front of the bytes, and where its reader has come to. */
+  #read(body: Buffer): { readonly request: ReceivedRequest; readonly reader: Reader } | UnknownRequest {
+    const head = readerOf(this.code, body)
     const code = head.uint(2)
     const subcommand = head.uint(2)
     decode(this.#layout.reserved, head)
@@ -296,10 +322,9 @@ export class SlmpCommandSet {
     if (known === undefined) return { unknown: { command: code, subcommand } }
     const { command, form } = known
     const bits = codecBits(command, form, subcommand) | this.#digitBits
-    const reader = readerOf(this.code, frame.body.subarray(head.position), bits)
+    const reader = readerOf(this.code, body.subarray(head.position), bits)
     const message = decode(command.request, reader)
-    reader.end()
-    return { command, form, name: command.name, subcommand, message }
+    return { request: { command, form, name: command.name, subcommand, message }, reader }
   }
 
   /** The PLC's side: the data of the answer. `context` is the request, or for Execute Monitor the registration. */
@@ -322,7 +347,8 @@ export class SlmpCommandSet {
   /** The PLC's side: what stands behind an end code other than 0. */
   writeErrorInformation(information: ErrorInformation): Buffer {
     const writer = writerOf(this.code)
-    encode(this.#layout.errorInformation, information, writer)
+    const { errorInformation } = this.#layout
+    if (errorInformation !== undefined) encode(errorInformation, information, writer)
     return writer.take()
   }
 }

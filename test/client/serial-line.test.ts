@@ -6,7 +6,8 @@ import { Line } from '../../src/client/connection/line'
 import { proofs } from '../../src/client/melsec/control'
 import { type Framing, Responder } from '../../src/link/link'
 import { commands } from '../../src/melsec/commands/commands'
-import { frame4cFormat5, type Head4c } from '../../src/melsec/frame/frame-4c'
+import type { SerialHead } from '../../src/melsec/frame/serial-frames'
+import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { listenMemory } from '../../src/transport/memory'
@@ -15,8 +16,8 @@ import { manualClock } from '../support/manual-clock'
 import { Tracked } from './bench'
 
 const DLE = 0x10
-const format5 = frame4cFormat5()
-const framing: Framing<Head4c> = {
+const format5 = serialFraming({ frame: '4C', format: 5 })
+const framing: Framing<SerialHead> = {
   ...format5,
   recovery: Buffer.of(0x04),
   response: {

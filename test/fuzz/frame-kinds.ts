@@ -10,8 +10,8 @@ import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import { explainFrame } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
-import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
 import { ownStation } from '../../src/melsec/frame/route'
+import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import type { FrameName, ProfileId } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
@@ -76,7 +76,7 @@ function format5(sumCheck: boolean): FrameKind {
   return kind(`4C format 5${sumCheck ? '' : ' without sum check'}`, () => {
     const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
     const protocol = new MelsecProtocol({
-      framing: frame4cFormat5({ sumCheck }),
+      framing: serialFraming({ frame: '4C', format: 5, sumCheck }),
       head: route,
       profile: lenient(profiles.q),
       code: 'binary',

@@ -1,6 +1,6 @@
 /**
  * The ground carries more than SLMP: client session and responder joined in memory, with the time as a number, for
- * 3E and 4E, 4C format 5 (byte stuffing, sum check), 1E (no length in the answer) and Sharp JW (another vendor).
+ * 3E and 4E, 3C and 4C (control codes, byte stuffing, sum check), 1E (no length in the answer) and Sharp JW (another vendor).
  */
 
 import { describe, expect, test } from '@jest/globals'
@@ -13,7 +13,8 @@ import type { Head } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import { commands } from '../../src/melsec/commands/commands'
-import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
+import { type SerialHead, serialFrameFacts, serialRoute } from '../../src/melsec/frame/serial-frames'
+import { type SerialFrameOptions, serialFraming } from '../../src/melsec/frame/serial-framing'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { type Answer, Line, type Plc, type Wire } from './line'
@@ -43,6 +44,17 @@ function melsecPlc<H extends Head>(protocol: MelsecProtocol<H>, words = new Uint
   }
 }
 
+function serialProtocol(options: SerialFrameOptions): MelsecProtocol<SerialHead> {
+  const framing = serialFraming(options)
+  const { code } = framing
+  return new MelsecProtocol({ framing, head: serialRoute(options.frame), profile: resolveProfile('iq-r'), code })
+}
+
+/** In format 1 nobody but the command knows where a request ends. */
+function serialPlc(protocol: MelsecProtocol<SerialHead>): Plc<SerialHead> {
+  return { ...melsecPlc(protocol), bodyLength: (_head, soFar) => protocol.requestLength(soFar) }
+}
+
 const wires: readonly Wire[] = ['whole', 'byte by byte', 'datagrams']
 
 describe.each(wires)('SLMP, %s', (wire) => {
@@ -70,11 +82,65 @@ describe.each(wires)('SLMP, %s', (wire) => {
   })
 })
 
+describe.each(['whole', 'byte by byte'] as const)('3C and 4C, %s', (wire) => {
+  const lines = (['3C', '4C'] as const).flatMap((frame) =>
+    serialFrameFacts[frame].formats.flatMap((format) =>
+      [true, false].map((sumCheck) => ({
+        title: `${frame} format ${format}${sumCheck ? '' : ' without sum check'}`,
+        protocol: serialProtocol({ frame, format, sumCheck }),
+      })),
+    ),
+  )
+
+  test.each(lines)('$title reads what it wrote, and goes on after a refusal', ({ protocol }) => {
+    const line = new Line(protocol.framing, serialPlc(protocol), wire)
+    const values = [0, 1, 0x1010, 0xffff, 0x0310, 0x0210]
+    expect(line.ask(protocol.exchange(commands.writeWords, { head: D(16), values }))).toEqual({})
+    expect(line.ask(protocol.exchange(commands.readWords, { head: D(15), points: 8 }))).toEqual({
+      values: [0, ...values, 0],
+    })
+    expect(line.ask(protocol.exchange(commands.readTypeName, {}))).toMatchObject({ modelCode: 0x4800 })
+    expect(line.ask(protocol.exchange(commands.remoteRun, { mode: 1 }))).toEqual({})
+    const refused = line.fails(protocol.exchange(commands.readWords, { head: D(10_000), points: 1 }))
+    expect(refused).toMatchObject({ name: 'EndCodeError', endCode: 0xc056, outcome: 'refused', station: undefined })
+    expect(refused).toMatchObject({ command: 'Read (word units)', family: 'slmp' })
+    expect(line.ask(protocol.exchange(commands.readWords, { head: D(18), points: 1 }))).toEqual({ values: [0x1010] })
+    expect(line.dropped).toBeUndefined()
+  })
+
+  test.each(lines)('$title: start codes are those of the answers', ({ protocol }) => {
+    const line = new Line(protocol.framing, serialPlc(protocol), wire)
+    line.ask(protocol.exchange(commands.writeWords, { head: D(0), values: [1] }))
+    line.ask(protocol.exchange(commands.readWords, { head: D(0), points: 1 }))
+    line.fails(protocol.exchange(commands.readWords, { head: D(10_000), points: 1 }))
+    const starts = line.received.map(([start]) => start)
+    expect(starts).toEqual(protocol.code === 'ascii' ? [0x06, 0x02, 0x15] : [0x10, 0x10, 0x10])
+  })
+
+  test.each(lines)('$title: an answer of another station is not taken', ({ protocol }) => {
+    const line = new Line(protocol.framing, serialPlc(protocol), wire)
+    const { framing } = protocol
+    const route = serialRoute('4C', { station: 5 })
+    line.damage = () => framing.response.write(route, 0, 0, Buffer.alloc(0))
+    const error = line.fails(protocol.exchange(commands.writeWords, { head: D(0), values: [1] }))
+    expect(error).toMatchObject({ code: 'ECHO_MISMATCH', outcome: 'unknown' })
+  })
+
+  const withSum = lines.filter(({ title }) => !title.includes('without'))
+  test.each(withSum)('$title: a wrong sum of a request is answered by silence', ({ protocol }) => {
+    const line = new Line(protocol.framing, serialPlc(protocol), wire)
+    line.damageRequest = (request) => Buffer.from(request).map((byte, i) => (i === 5 ? byte ^ 1 : byte)) as Buffer
+    const error = line.fails(protocol.exchange(commands.writeWords, { head: D(0), values: [1] }))
+    expect(error).toMatchObject({ code: 'TIMEOUT', outcome: 'unknown' })
+    expect(line.received).toEqual([])
+  })
+})
+
 describe.each(['whole', 'byte by byte'] as const)('MC 4C format 5, %s', (wire) => {
   const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
   const protocol = (sumCheck = true) =>
     new MelsecProtocol({
-      framing: frame4cFormat5({ sumCheck }),
+      framing: serialFraming({ frame: '4C', format: 5, sumCheck }),
       head: route,
       profile: resolveProfile('q'),
       code: 'binary',

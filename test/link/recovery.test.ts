@@ -1,14 +1,15 @@
 // A line that is no connection: noise, echoes, silence and rubbish cost one request at most, and never the line.
 import { describe, expect, test } from '@jest/globals'
 import { type Framing, Session } from '../../src/link/link'
-import { frame4cFormat5, type Head4c } from '../../src/melsec/frame/frame-4c'
+import type { SerialHead } from '../../src/melsec/frame/serial-frames'
+import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { questionOf } from '../support/question'
 import { eventsOf, type TestJob } from './support'
 
 const EOT = Buffer.of(0x04)
 const DLE = 0x10
-const format5 = frame4cFormat5()
-const framing: Framing<Head4c> = {
+const format5 = serialFraming({ frame: '4C', format: 5 })
+const framing: Framing<SerialHead> = {
   ...format5,
   recovery: EOT,
   response: {
@@ -19,7 +20,7 @@ const framing: Framing<Head4c> = {
     },
   },
 }
-const head = (station: number): Head4c => ({
+const head = (station: number): SerialHead => ({
   station,
   network: 0,
   pc: 0xff,

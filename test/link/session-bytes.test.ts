@@ -6,7 +6,7 @@ import { jwFrame } from '../../src/jw/frame'
 import type { Head } from '../../src/link/link'
 import { type Framing, Session, type SessionOptions } from '../../src/link/link'
 import { frame1e } from '../../src/melsec/frame/frame-1e'
-import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
+import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { questionOf } from '../support/question'
 import { answer, eventsOf, HEAD, job, sent, sessionOf, slmpFrames, told } from './support'
 
@@ -207,7 +207,7 @@ describe('any bytes', () => {
   const all: readonly Fuzzed[] = [
     ...slmpFrames.map(({ framing }) => fuzzed(framing, HEAD)),
     ...(['binary', 'ascii'] as const).map((code) => fuzzed(frame1e(code), { command: 1, pc: 0xff, timer: 0 })),
-    fuzzed(frame4cFormat5(), route),
+    fuzzed(serialFraming({ frame: '4C', format: 5 }), route),
     fuzzed(jwFrame(), { command: 0x24 }),
   ]
   /** Heads of every frame, so that the bytes come far enough to be read. */

@@ -11,8 +11,8 @@ import type { Command } from '../../src/melsec/commands/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { explainFrame, type FrameExplanation, formatExplanation } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
-import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
 import { frameFacts, type SlmpFrameName } from '../../src/melsec/frame/frames'
+import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
@@ -635,7 +635,7 @@ describe('4C frames in format 5', () => {
   })
 
   test('an answer with its request; doubled DLEs belong to their value', () => {
-    const framing = frame4cFormat5()
+    const framing = serialFraming({ frame: '4C', format: 5 })
     const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
     const { body } = protocolOf({ code: 'binary' }).exchange(commands.readWords, {
       head: { device: 'D', number: 0x10 },

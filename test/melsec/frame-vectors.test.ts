@@ -17,11 +17,10 @@ import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { FORM_BITS, subcommandOf } from '../../src/melsec/device/form'
 import { bodies } from '../../src/melsec/frame/body'
 import { frame1e, type Head1e, mayEndWithZero, zeroBehind } from '../../src/melsec/frame/frame-1e'
-import { frame4cFormat5, type Head4c } from '../../src/melsec/frame/frame-4c'
 import type { Route } from '../../src/melsec/frame/route'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
-import { type FrameCase, testFeedings, testWrongSum } from '../vectors/feedings'
+import { type FrameCase, testFeedings } from '../vectors/feedings'
 import { bytesOf, type FrameVector, type Vector, vectorsOfKind } from '../vectors/vectors'
 
 const profile = resolveProfile('generic')
@@ -183,54 +182,6 @@ describe('fields of the 3E frame', () => {
 
   test('are at least one of each', () => {
     expect(new Set(vectors.map(({ fields }) => fields[0]?.name)).size).toBe(Object.keys(AT).length)
-  })
-})
-
-const serialRoute = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
-
-function format5Case(vector: FrameVector): FrameCase<Head4c> {
-  const head = { ...serialRoute, ...vector.head?.route }
-  return {
-    framing: frame4cFormat5({ sumCheck: given(vector.sumCheck, 'sumCheck') }),
-    side: vector.side,
-    bytes: bytesOf(vector),
-    head,
-    askedHead: head,
-    body: bodyOf(vector),
-    ...(vector.endCode === undefined ? {} : { endCode: vector.endCode }),
-    bodyLength: noLength,
-  }
-}
-
-describe('4C frame, format 5', () => {
-  const vectors = vectorsOfKind('mc-serial', 'frame')
-  for (const vector of vectors) testFeedings(vector.id, vector.side, () => format5Case(vector))
-  for (const vector of vectors.filter(({ sumCheck }) => sumCheck)) testWrongSum(vector.id, () => format5Case(vector))
-
-  test.each(vectorsOfKind('mc-serial', 'additionalCode'))('$id: 10H is doubled', (vector) => {
-    const framing = frame4cFormat5({ sumCheck: false })
-    const frame = framing.request.write(serialRoute, 0, Buffer.from(vector.unstuffed, 'hex'))
-    expect(frame.subarray(12, -2).toString('hex')).toBe(vector.hex)
-    expect(framing.request.scan(frame, noLength)?.frame.body.toString('hex')).toBe(vector.unstuffed)
-  })
-
-  const AT: Record<string, number> = {
-    dataBytes: 2,
-    frameId: 4,
-    station: 5,
-    network: 6,
-    pc: 7,
-    moduleIo: 8,
-    selfStation: 11,
-  }
-  const fields = vectorsOfKind('mc-serial', 'field').filter(({ frame }) => frame === '4C5')
-  test.each(fields)('$id: field', (vector) => {
-    const { dataBytes, frameId: _, ...route } = valuesOf(vector)
-    // Frame ID 1, route 7, response ID 2 and end code 2 count as well.
-    const body = Buffer.alloc(dataBytes === undefined ? 0 : dataBytes - 12)
-    const head = { ...serialRoute, ...route }
-    const frame = frame4cFormat5().response.write(head, 0, 0, body)
-    expectField(vector, frame, given(AT[vector.fields[0]?.name ?? ''], 'known field'))
   })
 })
 

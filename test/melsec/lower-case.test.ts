@@ -7,7 +7,7 @@ import { createMelsecClient } from '../../src/index'
 import { deviceAddress, FORM_EXTENDED } from '../../src/melsec/device/codec'
 import { explainFrame } from '../../src/melsec/explain/frame'
 import { frame1e } from '../../src/melsec/frame/frame-1e'
-import { frame4cFormat5 } from '../../src/melsec/frame/frame-4c'
+import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { tcpTransport } from '../../src/transport/tcp'
 import { record } from '../transport/recorder'
@@ -52,7 +52,7 @@ describe('frames', () => {
   })
 
   test('4C format 5: the sum check code', () => {
-    const { request } = frame4cFormat5()
+    const { request } = serialFraming({ frame: '4C', format: 5 })
     const head = { ...route, pc: 0xff, selfStation: 0 }
     // Bodies differ, so that sums with letters are among them.
     for (let i = 0; i < 32; i++) {

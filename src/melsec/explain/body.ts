@@ -210,7 +210,7 @@ export const OTHER_COMMAND = 'The answer is about another command than the reque
 
 /** Reads what stands behind an end code: which station refused which command. */
 export function explainErrorInformation(explainer: Explainer, settings: ExplainSettings): Message {
-  const { errorInformation } = settings.body ?? plainBody
+  const { errorInformation = plainBody.errorInformation } = settings.body ?? plainBody
   const { command, subcommand } = annotate(errorInformation, explainer.ahead(), { code: settings.code }).message
   const found = recognise(settings, Number(command), Number(subcommand))?.command
   return explainer.read(errorInformation, commandWords(settings, found))

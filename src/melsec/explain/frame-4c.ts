@@ -10,7 +10,7 @@ import {
   type FrameFault,
   showBytes,
 } from '../../codec/explanation'
-import { frame4cFormat5 } from '../frame/frame-4c'
+import { serialFraming } from '../frame/serial-framing'
 import {
   type ExplainSettings,
   explainRequestBody,
@@ -189,7 +189,7 @@ function requestIn(bytes: Buffer | undefined, settings: ExplainSettings): KnownR
   if (bytes === undefined) return undefined
   for (const sumCheck of [true, false]) {
     try {
-      const scanned = frame4cFormat5({ sumCheck }).request.scan(bytes, () => undefined)
+      const scanned = serialFraming({ frame: '4C', format: 5, sumCheck }).request.scan(bytes, () => undefined)
       if (scanned !== undefined) return readRequestBody(scanned.frame.body, settings)
     } catch {
       // Not a frame of this kind: the caller says so.

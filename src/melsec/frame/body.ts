@@ -23,12 +23,20 @@ export interface BodyLayout {
   readonly reserved: Shape
   /** An answer repeats command, subcommand and the fixed values in front of its data, whatever its end code. */
   readonly echoed: boolean
-  /** All that follows an end code other than 0. */
+  /** All that follows an end code other than 0; absent where nothing does. */
+  readonly errorInformation?: typeof errorInformation
+}
+
+/** The body of a frame that says what failed where. */
+export interface InformedBody extends BodyLayout {
   readonly errorInformation: typeof errorInformation
 }
 
-/** 3E, 4E and the serial frames. */
-export const plainBody: BodyLayout = { reserved: {}, echoed: false, errorInformation }
+/** 3E and 4E. */
+export const plainBody: InformedBody = { reserved: {}, echoed: false, errorInformation }
+
+/** 3C and 4C. */
+export const serialBody: BodyLayout = { reserved: {}, echoed: false }
 
 /** Fixed value 00H and system area (five times 00H); both count as data. */
 const reserved = {
@@ -46,9 +54,9 @@ const extendedErrorInformation = {
   extensionStation: u16(),
 } as const satisfies Shape
 
-const extendedBody: BodyLayout = { reserved, echoed: true, errorInformation: extendedErrorInformation }
+const extendedBody: InformedBody = { reserved, echoed: true, errorInformation: extendedErrorInformation }
 
-export const bodies: Readonly<Record<SlmpFrameName, BodyLayout>> = {
+export const bodies: Readonly<Record<SlmpFrameName, InformedBody>> = {
   '3E': plainBody,
   '4E': plainBody,
   ext: extendedBody,
