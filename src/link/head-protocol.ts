@@ -1,5 +1,5 @@
-// A protocol whose command number stands in the frame's head and whose requests carry no length: MELSEC 1E and
-// Sharp JW. Frames, commands and device codes differ; how they go together is the same.
+// A protocol whose command stands in the frame's head (MELSEC 1E, Sharp JW) or in front of the data of its requests (MELSEC
+// 1C), and whose requests carry no length. Frames, commands and device codes differ; how they go together is the same.
 import { hex } from '../basics/hex'
 import {
   type Context,
@@ -14,6 +14,7 @@ import {
   type Named,
   type Reader,
   readerOf,
+  type Shape,
   writerOf,
 } from '../codec/codec'
 import { type EndCodeError, ProtocolError } from '../errors'
@@ -25,6 +26,15 @@ export type NamedCommand = Named<Declaration, string>
 
 const DUMMY = '0'
 
+/** What stands in front of the data of each request and says which command it is, where no head does. */
+export interface Front {
+  readonly shape: Shape
+  /** The message of it for a command. */
+  readonly messageOf: (command: NamedCommand) => Message
+  /** The number of the command that such a message names. */
+  readonly codeOf: (message: Message) => number | undefined
+}
+
 /** What makes one protocol of this kind different from another. */
 export interface HeadProtocolParts<H extends Head> {
   readonly framing: Framing<H>
@@ -33,8 +43,12 @@ export interface HeadProtocolParts<H extends Head> {
   /** Device form of the value codecs. */
   readonly form: number
   readonly headOf: (command: NamedCommand) => H
-  /** Of a head as its framing scans it. */
-  readonly codeOf: (head: Head) => number | undefined
+  /** The number of the command in a head as its framing scans it. Absent: heads name none, so answers do not either. */
+  readonly codeOf?: (head: Head) => number | undefined
+  /** Where heads name no command. */
+  readonly front?: Front
+  /** Whether a success is answered. Default: as the declaration says. */
+  readonly isAnswered?: (command: NamedCommand) => boolean
   /** The message as it goes into the frame. @throws RequestError for what must not be sent. */
   readonly prepare?: (command: NamedCommand, message: Message) => Message
   /** Characters `0` behind a request, or behind the data of its answer, that stand for nothing. */
@@ -59,20 +73,23 @@ export class HeadProtocol<H extends Head> {
     command: C,
     message: MessageInput<C['request']>,
   ): Exchange<MessageOf<C['response']>> {
-    const { code, form, prepare } = this.#parts
+    const { code, form, prepare, front } = this.#parts
     const writer = writerOf(code, form)
+    if (front !== undefined) encode(front.shape, front.messageOf(command), writer)
     if (prepare === undefined) encode<C['request']>(command.request, message, writer)
     else encode(command.request, prepare(command, message), writer)
     const data = writer.take()
     // What was sent counts, not an object that the caller may change before the answer comes.
-    const context: Context = { shape: command.request, message: decode(command.request, readerOf(code, data, form)) }
+    const sent = readerOf(code, data, form)
+    if (front !== undefined) decode(front.shape, sent)
+    const context: Context = { shape: command.request, message: decode(command.request, sent) }
     const body = this.#withDummies(data, command, context.message, 'request')
     const asked = {
       title: command.title,
       effect: command.effect,
       message,
       body,
-      answered: command.answered !== 'no',
+      answered: this.#parts.isAnswered?.(command) ?? command.answered !== 'no',
       responseLength: (head: Head) => {
         this.#checkCommand(command, head)
         const length = measure(command.response, { ascii: code === 'ascii', form, context })
@@ -85,7 +102,9 @@ export class HeadProtocol<H extends Head> {
 
   /** Without a length, an answer to another command would be waited for until it is as long as the right one. */
   #checkCommand(command: NamedCommand, head: Head): void {
-    const answered = this.#parts.codeOf(head)
+    const { codeOf } = this.#parts
+    if (codeOf === undefined) return
+    const answered = codeOf(head)
     if (answered === command.code) return
     throw new ProtocolError(
       'ECHO_MISMATCH',
@@ -120,7 +139,7 @@ export class HeadProtocol<H extends Head> {
   requestLength(head: Head, soFar: Buffer): number | undefined {
     const reader = readerOf(this.#parts.code, soFar, this.#parts.form)
     try {
-      const command = this.#commandOf(head)
+      const command = this.#commandOf(head, reader)
       const message = decode(command.request, reader)
       return reader.position + this.#dummies(command, message, 'request')
     } catch (error) {
@@ -131,8 +150,8 @@ export class HeadProtocol<H extends Head> {
 
   /** The PLC's side: which command with which message a frame is. */
   readRequest(frame: RequestFrame): { command: NamedCommand; message: Message } {
-    const command = this.#commandOf(frame.head)
     const reader = readerOf(this.#parts.code, frame.body, this.#parts.form)
+    const command = this.#commandOf(frame.head, reader)
     const message = decode(command.request, reader)
     this.#endOf(reader, this.#dummies(command, message, 'request'))
     return { command, message }
@@ -145,9 +164,11 @@ export class HeadProtocol<H extends Head> {
     return this.#withDummies(writer.take(), command, message, 'response')
   }
 
-  #commandOf(head: Head): NamedCommand {
-    const code = this.#parts.codeOf(head)
-    const command = Object.values(this.#parts.commands).find((entry) => entry.code === code)
+  /** Takes what stands in front from the reader of a request's body. */
+  #commandOf(head: Head, reader: Reader): NamedCommand {
+    const { codeOf, front, commands } = this.#parts
+    const code = front === undefined ? codeOf?.(head) : front.codeOf(decode(front.shape, reader))
+    const command = Object.values(commands).find((entry) => entry.code === code)
     if (command === undefined) throw new ProtocolError('BAD_FIELD', `There is no ${commandText(code)}.`)
     return command
   }

@@ -24,7 +24,7 @@ export type {
   Scanned,
   SessionEvent,
 } from './framing'
-export { HeadProtocol, type HeadProtocolParts, type NamedCommand } from './head-protocol'
+export { type Front, HeadProtocol, type HeadProtocolParts, type NamedCommand } from './head-protocol'
 export { Recovery, type RecoveryOptions } from './recovery'
 export { Responder } from './responder'
 export { RoundTrips } from './round-trips'

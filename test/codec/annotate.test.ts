@@ -17,7 +17,8 @@ import { ProtocolError } from '../../src/errors'
 import { jwCommands } from '../../src/jw/commands'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { commands } from '../../src/melsec/commands/commands'
-import { FORM_EXTENDED, FORM_LONG } from '../../src/melsec/device/codec'
+import { FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL } from '../../src/melsec/device/codec'
+import { oneCCommands } from '../../src/melsec/one-c/commands'
 import { messageOf } from './arbitrary-message'
 
 /** Every declaration of this package with the forms and codes it is sent in. */
@@ -28,6 +29,7 @@ const families: readonly {
 }[] = [
   { list: commands, codes: ['binary', 'ascii'], forms: [0, FORM_LONG, FORM_EXTENDED, FORM_EXTENDED | FORM_LONG] },
   { list: aCompatibleCommands, codes: ['binary', 'ascii'], forms: [0] },
+  { list: oneCCommands, codes: ['ascii'], forms: [0, FORM_XY_OCTAL] },
   { list: jwCommands, codes: ['binary'], forms: [0] },
 ]
 const cases = families.flatMap(({ list, codes, forms }) =>

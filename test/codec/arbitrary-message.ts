@@ -7,12 +7,15 @@ import { aCompatibleDevice } from '../../src/melsec/a-compatible/device'
 import { deviceAddress } from '../../src/melsec/device/codec'
 import { setReset } from '../../src/melsec/device/set-reset'
 import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label/codec'
+import { longDevice, shortDevice } from '../../src/melsec/one-c/device'
+import { onOff } from '../../src/melsec/one-c/on-off'
 import { fileValues } from '../support/arbitrary-file'
 
 type Generate = fc.GeneratorValue
 
 const number = fc.integer({ min: 0, max: 0x7fff })
-const device = (names: readonly string[]) => fc.record({ device: fc.constantFrom(...names), number })
+const device = (names: readonly string[], last?: number) =>
+  fc.record({ device: fc.constantFrom(...names), number: last === undefined ? number : fc.nat(last) })
 
 /** Array data of labels: as many words as the length takes. */
 const area = fc.record({ unit: fc.constantFrom(0, 1), length: fc.nat(40) }).chain(({ unit, length }) => {
@@ -28,7 +31,10 @@ const area = fc.record({ unit: fc.constantFrom(0, 1), length: fc.nat(40) }).chai
 const VALUES: ReadonlyMap<object, fc.Arbitrary<unknown>> = new Map<object, fc.Arbitrary<unknown>>([
   [deviceAddress, device(['D', 'M', 'X', 'Y', 'W', 'ZR', 'TN', 'SB'])],
   [aCompatibleDevice, device(['D', 'M', 'X', 'R', 'TN'])],
+  [shortDevice, device(['D', 'M', 'X', 'S'], 0o377)],
+  [longDevice, device(['D', 'R', 'X', 'TN'], 0o377)],
   [setReset, fc.boolean()],
+  [onOff, fc.boolean()],
   ...fileValues(0),
   [labelName, fc.string({ minLength: 1, maxLength: 20, unit: 'binary' })],
   [labelData, fc.array(fc.nat(0xffff), { maxLength: 9 })],

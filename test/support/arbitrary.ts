@@ -8,6 +8,8 @@ import { deviceAddress, FORM_EXTENDED, FORM_XY_OCTAL, formProblem } from '../../
 import { devices } from '../../src/melsec/device/device'
 import { setReset } from '../../src/melsec/device/set-reset'
 import { labelArea, labelData, labelName, wordsOfArea, writtenLabelArea } from '../../src/melsec/label/codec'
+import { longDevice, shortDevice } from '../../src/melsec/one-c/device'
+import { onOff } from '../../src/melsec/one-c/on-off'
 import { anyAddress } from '../melsec/device-bytes'
 import { fileCodecs, fileValues } from './arbitrary-file'
 
@@ -28,6 +30,15 @@ const numbers = fc.oneof(
 
 const plainDevices = devices.filter((info) => info.extensionOnly !== true).map((info) => info.name)
 const plainAddress = fc.record({ device: fc.constantFrom(...plainDevices), number: numbers })
+
+/** Any number that the digits take, also the octal ones of X and Y. */
+function oneCAddress(characters: 5 | 7): fc.Arbitrary<unknown> {
+  return fc.constantFrom('X', 'Y', 'M', 'S', 'TS', 'TN', 'CS', 'CN', 'D', 'R').chain((device) => {
+    const digits = characters - device.length
+    const radix = device === 'X' || device === 'Y' ? 8 : 10
+    return fc.record({ device: fc.constant(device), number: fc.nat(radix ** digits - 1) })
+  })
+}
 
 /** Array data of labels: as many words as the length takes. */
 const area = fc.record({ unit: fc.constantFrom(0, 1), length: fc.nat(40) }).chain(({ unit, length }) => {
@@ -56,7 +67,10 @@ const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
         .record({ device: fc.constantFrom(...aCompatibleDevices.map(({ name }) => name)), number: numbers })
         .filter(({ number }) => !ascii || (form & FORM_XY_OCTAL) === 0 || number < 8 ** 8),
   ],
+  [shortDevice, () => oneCAddress(5)],
+  [longDevice, () => oneCAddress(7)],
   [setReset, () => fc.boolean()],
+  [onOff, () => fc.boolean()],
   ...fileCodecs.map((codec): [object, Values] => [
     codec,
     ({ form }) => fileValues(form).get(codec) as fc.Arbitrary<unknown>,

@@ -6,6 +6,7 @@ import type { MelsecDeclaration } from '../../src/melsec/commands/command'
 import { commands } from '../../src/melsec/commands/commands'
 import { fileCommands } from '../../src/melsec/commands/file'
 import { FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL, FORM_ZR_HEX } from '../../src/melsec/device/codec'
+import { oneCCommands } from '../../src/melsec/one-c/commands'
 import { fileCommandNames } from '../../src/melsec/profiles/files'
 
 export interface DeclarationCase {
@@ -42,6 +43,7 @@ const families: Readonly<Record<string, Family>> = {
   },
   files: { list: fileCommands, forms: { binary: fileForms, ascii: fileForms } },
   '1E': { list: aCompatibleCommands, forms: { binary: [0], ascii: [0, FORM_XY_OCTAL] } },
+  '1C': { list: oneCCommands, forms: { ascii: [0, FORM_XY_OCTAL] } },
   jw: { list: jwCommands, forms: { binary: [0] } },
 }
 

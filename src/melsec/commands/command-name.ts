@@ -4,9 +4,9 @@ import { exampleOf, type FieldDescription, describe as rowsOf, type Shape } from
 import { RequestError } from '../../errors'
 import type { DeviceAddress } from '../device/device'
 import { deviceToJson } from '../device/json'
+import { isDevice } from '../device-field'
 import type { Command } from './command'
 import { type CommandName, commands } from './commands'
-import { isDevice } from './message-json'
 
 /**
  * The command of a name (`readWords`, in upper or lower case) or a code (`0401`, when one command alone has it).

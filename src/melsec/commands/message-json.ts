@@ -14,9 +14,9 @@
  */
 import { encode, type Field, hasSecret, isVisible, namesOf, type Shape, takesOf, writerOf } from '../../codec/codec'
 import { RequestError } from '../../errors'
-import { aCompatibleDevice } from '../a-compatible/device'
-import { deviceAddress, FORM_EXTENDED, FORM_LONG } from '../device/codec'
+import { FORM_EXTENDED, FORM_LONG } from '../device/codec'
 import { deviceFromJson, deviceToJson, type Notation } from '../device/json'
+import { isDevice } from '../device-field'
 import type { Command, RequestOf } from './command'
 
 /** How a message is written as JSON. */
@@ -200,10 +200,6 @@ function toJson(field: Field, value: unknown, options: ToJsonOptions): unknown {
   }
   if (isDevice(field)) return deviceToJson(value, options)
   return isNumbers(value) ? Array.from(value) : value
-}
-
-export function isDevice(field: Field): boolean {
-  return field.kind === 'value' && (field.codec === deviceAddress || field.codec === aCompatibleDevice)
 }
 
 function isObject(given: unknown): given is Readonly<Record<string, unknown>> {

@@ -1,14 +1,13 @@
 // Values in words: device addresses as GX Works writes them, and which device each value of a message belongs to.
 
 import { hex } from '../../basics/hex'
-import type { Context, DataCode, Declaration, Field, Message, Shape } from '../../codec/codec'
+import type { Context, DataCode, Declaration, Message, Shape } from '../../codec/codec'
 import { type AnnotatedRow, type Leaf, showBytes } from '../../codec/explanation'
-import { aCompatibleDevice } from '../a-compatible/device'
 import { commands } from '../commands/commands'
 import { type AddressOptions, formatDevice } from '../device/address'
-import { deviceAddress } from '../device/codec'
 import { type DeviceAddress, deviceInfo } from '../device/device'
 import { setReset } from '../device/set-reset'
+import { isDevice } from '../device-field'
 import { attributeText } from '../file/attribute'
 import { driveNumber, fileName } from '../file/codec'
 import { type FileTime, formatFileTime } from '../file/time'
@@ -69,10 +68,6 @@ function signedText(value: unknown, bits: 16 | 32): string {
 
 function signed(value: number, bits: 16 | 32): number {
   return value >= 2 ** (bits - 1) ? value - 2 ** bits : value
-}
-
-function isDevice(field: Field | undefined): boolean {
-  return field?.kind === 'value' && (field.codec === deviceAddress || field.codec === aCompatibleDevice)
 }
 
 /** Values of a bulk row that go into one row together. */
