@@ -96,7 +96,7 @@ function countedTwice({ limits }: Profile, { name }: DeviceInfo): boolean {
 }
 
 function tried(protocol: PlanProtocol, address: DeviceAddress, use: DeviceUse): DeviceForm | FormProblem {
-  return formOrProblem(protocol.profile, commands[use.command], [{ path: '', address, use }], protocol.code, 0)
+  return formOrProblem(protocol.profile, commands[use.command], [{ field: '', address, use }], protocol.code, 0)
 }
 
 const USES = {

@@ -8,7 +8,7 @@ import { type AccessProblem, accessProblem } from './access'
 import { FORM_EXTENDED, FORM_LONG, formNeededBy, formProblem } from './codec'
 import { deviceInfo } from './device'
 import type { DeviceForm } from './device-form'
-import type { FoundDevice } from './uses'
+import { type FoundDevice, pathOf } from './uses'
 
 /** Subcommand bits of each form. */
 export const FORM_BITS: Readonly<Record<DeviceForm, number>> = {
@@ -111,7 +111,7 @@ export function formOrProblem(
   if (lack !== undefined) return lack
   for (const device of found) {
     const problem = deviceProblem(profile, command, device)
-    if (problem !== undefined) return { ...problem, field: device.path }
+    if (problem !== undefined) return { ...problem, field: pathOf(device) }
   }
   if (wanted !== undefined && !profile.forms.includes(wanted)) {
     const forms = profile.forms.join(', ')
@@ -122,9 +122,9 @@ export function formOrProblem(
     const asked = found.map(({ address }) => `${address.device}${address.number}`).join(', ')
     return unsupported(`${profile.title} has no form that can address ${asked}.`)
   }
-  for (const { address, path } of found) {
-    const problem = formProblem(address, code === 'ascii', FORM_BITS[form] | extraBits)
-    if (problem !== undefined) return { ...problem, field: path }
+  for (const device of found) {
+    const problem = formProblem(device.address, code === 'ascii', FORM_BITS[form] | extraBits)
+    if (problem !== undefined) return { ...problem, field: pathOf(device) }
   }
   return form
 }

@@ -7,8 +7,10 @@ import type { DeviceAddress } from './device'
 
 /** One address of a message and how the command is about to use it. */
 export interface FoundDevice {
-  /** e.g. `words.3.device` */
-  readonly path: string
+  /** Name of the field that holds it. */
+  readonly field: string
+  /** Place of the element it is in, where the use is in a list. */
+  readonly index?: number | undefined
   readonly address: DeviceAddress
   readonly use: DeviceUse
 }
@@ -44,32 +46,36 @@ export function devicesOf(command: Command, message: Message): readonly FoundDev
   if (!isMessage(message)) return []
   const { own, lists } = placesOf(command.request)
   const found: FoundDevice[] = []
-  if (own !== undefined && isMessage(message[own])) found.push(foundIn(command, message, own, undefined, own))
+  if (own !== undefined && isMessage(message[own])) found.push(foundIn(command, message, own))
   for (const { list, field } of lists) {
     const elements = message[list]
     if (!Array.isArray(elements)) continue
     elements.forEach((element, i) => {
       if (isMessage(element) && isMessage(element[field]))
-        found.push(foundIn(command, element, field, list, `${list}.${i}.${field}`))
+        found.push(foundIn(command, element, field, { list, index: i }))
     })
   }
   return found
+}
+
+/** Where a device stands in its message, e.g. `words.3.device`: put together for messages only. */
+export function pathOf({ use: { list }, index, field }: FoundDevice): string {
+  return index === undefined ? field : `${list}.${index}.${field}`
 }
 
 function foundIn(
   command: Command,
   holder: Message,
   field: string,
-  list: string | undefined,
-  path: string,
+  place?: { readonly list: string; readonly index: number },
 ): FoundDevice {
   const { points, values } = holder
   const count = typeof points === 'number' ? points : isArrayLike(values) ? values.length : undefined
   const use: { readonly command: string; list?: string; points?: number } = { command: command.name }
-  if (list !== undefined) use.list = list
+  if (place !== undefined) use.list = place.list
   if (count !== undefined) use.points = count
   // The names come from the declarations, which device-access knows: commands with an address and their lists.
-  return { path, address: holder[field] as DeviceAddress, use: use as DeviceUse }
+  return { field, address: holder[field] as DeviceAddress, use: use as DeviceUse, index: place?.index }
 }
 
 function isMessage(value: unknown): value is Message {
