@@ -155,3 +155,13 @@ test('secrets are asterisks in the bytes and in the words', () => {
     expect(shown).not.toMatch(/hunter|68 75 6E|68756e/)
   }
 })
+
+test('what a listener does to the bytes of a trace changes neither what is sent next nor what is read', () => {
+  const tell = { time: 1, direction: 'sent' } as const
+  const { tracer, read, answer } = bench('3E')
+  const [request, reply] = [read(1), answer([10, 0])]
+  const before = [Buffer.from(request), Buffer.from(reply)]
+  tracer.entry({ ...tell, bytes: request }).bytes.fill(0)
+  tracer.entry({ ...tell, direction: 'received', bytes: reply }).bytes.fill(0)
+  expect([request, reply]).toEqual(before)
+})

@@ -66,7 +66,8 @@ export class Tracer {
     const pieces = direction === 'sent' ? this.#sent(bytes, sent) : this.#receivedPieces(bytes)
     const explain = () => pieces.map((piece) => this.#explain(piece))
     const secret = direction === 'sent' ? (sent?.isSecret ?? true) : this.#explainer.hasSecretAnswers
-    return new Entry(time, direction, secret ? masked(bytes, pieces, explain()) : bytes, explain)
+    // A copy: a listener may do with it what it likes, and a request is sent again from the same bytes.
+    return new Entry(time, direction, secret ? masked(bytes, pieces, explain()) : Buffer.from(bytes), explain)
   }
 
   #sent(bytes: Buffer, sent: SentFrame | undefined): readonly Piece[] {
