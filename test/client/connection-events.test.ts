@@ -118,6 +118,19 @@ describe.each(everyLink)('listeners, $frame by $kind', (link) => {
   })
 })
 
+test('what is aborted by a listener while the connection ends is not sent on the next one', async () => {
+  const abort = new AbortController()
+  const bench = await Bench.connected({ frame: '4E', onUnsolicited: () => abort.abort() })
+  bench.plc.script = ({ frame, peer }) => {
+    const bad = bench.framing.response.write(frame.head, frame.serial ?? 0, 0, Buffer.alloc(7))
+    peer.send(Buffer.concat([bad, bench.framing.request.write(ownHead, 9, Buffer.from('news'))]))
+  }
+  const read = bench.read(1)
+  const write = bench.write(2, 1, { signal: abort.signal })
+  await bench.pass(10_000)
+  expect([read.settled, write.settled, bench.plc.asked]).toEqual([1, 1, ['readWords 1']])
+})
+
 const ownHead = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 0 }
 
 test('a connection is lost once, however much is wrong on it', async () => {

@@ -141,6 +141,11 @@ export class Call implements Job {
     return isChange(this.exchange) ? 'control' : 'read'
   }
 
+  /** Nobody waits for it any more. */
+  get isSettled(): boolean {
+    return this.#settled
+  }
+
   write(serial: number): Buffer {
     return this.exchange.write(serial)
   }

@@ -289,6 +289,8 @@ export class Connection {
 
   /** A call on a connection that is gone. What was sent is never sent again; the rest may wait for the next one. */
   #handedBack(call: Call, sent: boolean, reason: PlcError): void {
+    // It was aborted by somebody who was told of something else meanwhile.
+    if (call.isSettled) return
     const { title, answered } = call.exchange
     if (sent && !answered && failure.isGone(reason)) takeAsDone(call)
     else if (sent) call.fail(failure.lostInFlight(title, reason))
