@@ -9,7 +9,6 @@
 // A line that is no connection (serial) cannot be made anew: it is brought to a known state (recovery.ts) instead.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
 import type { Fence } from './fence'
-
 import type { AnswerFraming, Job, JobEnd, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
 import { Incoming } from './incoming'
 import { type Recovery, type RecoveryOptions, recoveryOf } from './recovery'
@@ -40,11 +39,8 @@ export interface Sent<J> {
   readonly job: J | undefined
 }
 
-/** A job that was taken back. */
-export interface Released<J> {
-  readonly job: J
-  readonly sent: boolean
-}
+/** How a job ended. */
+export type Done<J extends Job> = Extract<SessionEvent<J>, { kind: 'done' }>
 
 interface Outgoing<J> {
   readonly bytes: Buffer
@@ -148,14 +144,20 @@ export class Session<J extends Job = Job> {
     return pending.sent
   }
 
-  /** Takes back the jobs that belong: gives them up, and tells of them here instead of in events. */
-  release(belongs: (job: J) => boolean, now: number): readonly Released<J>[] {
-    const waiting = [...this.#waiting].filter(belongs)
-    for (const job of waiting) this.#waiting.remove(job)
+  /** Gives up the jobs that belong, and tells here instead of by events how they ended, also those that just have. */
+  release(belongs: (job: J) => boolean, now: number): readonly Done<J>[] {
+    for (const job of [...this.#waiting].filter(belongs)) {
+      this.#waiting.remove(job)
+      this.#finish(job, { kind: 'disconnected', sent: false }, undefined)
+    }
     const pending = this.#pending.filter(({ job }) => belongs(job))
+    for (const { job, sent, sentAt } of pending) this.#finish(job, { kind: 'disconnected', sent }, sentAt)
+    const isTheirs = (event: SessionEvent<J>): event is Done<J> => event.kind === 'done' && belongs(event.job)
+    const ends = this.#events.filter(isTheirs)
+    this.#events = this.#events.filter((event) => !isTheirs(event))
     if (pending.length > 0) this.#giveUp(pending, 'a request in flight was abandoned', now)
     this.#fill(now)
-    return [...waiting.map((job) => ({ job, sent: false })), ...pending.map(({ job, sent }) => ({ job, sent }))]
+    return ends
   }
 
   receive(chunk: Buffer, now: number): void {

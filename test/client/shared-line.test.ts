@@ -1,6 +1,6 @@
 // A line that several PLCs share: what carries the bytes is common, what belongs to a PLC is its own.
 import { describe, expect, test } from '@jest/globals'
-import { Bench, type Station } from './bench'
+import { Bench, type Station, type Tracked } from './bench'
 import { type Asked, replying, type Script, silent } from './scripted-plc'
 
 const stationOf = ({ frame }: Asked): number => frame.head.station
@@ -188,5 +188,58 @@ describe('stations on one line', () => {
     bench.follow(first.connection.request(first.ask.read(1)))
     await bench.settle()
     expect(seen).toEqual(['sent', 'received'])
+  })
+
+  test('when silence ends the use of one, what ended at the same time is told, too', async () => {
+    const bench = new Bench({ frame: '4E', kind: 'datagram', inFlight: 4 })
+    const [, second] = await threeOn(bench)
+    bench.plc.script = silent
+    const calls = [1, 2, 3, 4].map((at) => bench.follow(second.connection.request(second.ask.read(at))))
+    await bench.pass(1001)
+    expect(calls.map(({ told }) => told)).toEqual(Array.from({ length: 4 }, () => 'TIMEOUT unknown'))
+  })
+
+  test('what is asked of another one by who is told of the loss goes on the next line', async () => {
+    const bench = new Bench({ frame: '4E' })
+    const second: Station = bench.station(2)
+    const asked: Tracked<unknown>[] = []
+    const abort = new AbortController()
+    const first: Station = bench.station(1, {
+      onState: ({ name }) => {
+        if (name !== 'waiting') return
+        asked.push(bench.follow(second.connection.request(second.ask.read(5))))
+        asked.push(bench.follow(second.connection.request(second.ask.write(6, 1), { signal: abort.signal })))
+        abort.abort()
+      },
+    })
+    bench.follow(first.connection.connect())
+    bench.follow(second.connection.connect())
+    await bench.settle()
+    await bench.pass(10_000)
+    bench.plc.peers.at(-1)?.close()
+    await bench.settle()
+    await bench.pass(100)
+    expect(asked.map(({ told }) => told)).toEqual([{ values: [5] }, 'ABORTED notSent'])
+    expect(bench.plc.asked).toEqual(['readWords 5'])
+  })
+
+  test('what waited and was aborted by who is told of the loss is not sent on the next line', async () => {
+    const bench = new Bench({ frame: '4E' })
+    const second: Station = bench.station(2)
+    const abort = new AbortController()
+    const first: Station = bench.station(1, { onState: ({ name }) => name === 'waiting' && abort.abort() })
+    bench.follow(first.connection.connect())
+    bench.follow(second.connection.connect())
+    await bench.settle()
+    await bench.pass(10_000)
+    bench.plc.script = silent
+    bench.follow(first.connection.request(first.ask.write(1, 1)))
+    const waiting = bench.follow(second.connection.request(second.ask.write(2, 1), { signal: abort.signal }))
+    await bench.settle()
+    bench.plc.peers.at(-1)?.close()
+    await bench.settle()
+    await bench.pass(1000)
+    expect(waiting.told).toBe('ABORTED notSent')
+    expect(bench.plc.asked).toEqual(['writeWords 1'])
   })
 })

@@ -41,7 +41,7 @@ export class Attempt implements LineUser {
   #silent = 0
   #receivedAnything = false
   #over = false
-  /** What the line gave back when it ended. */
+  /** What the line gave back when it ended; what is asked from then on until the owner is told joins it. */
   #ends: readonly LineEnd[] | undefined
 
   constructor(options: ConnectionOptions, line: Line, owner: AttemptOwner, probe: NextProbe | undefined) {
@@ -150,12 +150,15 @@ export class Attempt implements LineUser {
   /** Sends it when its turn comes. `flush` afterwards. */
   submit(call: Call): void {
     call.over(this, this.#owner.roundTrips)
-    this.#line.submit(call)
+    if (this.#ends === undefined) this.#line.submit(call)
+    else this.#ends = [...this.#ends, { job: call, outcome: { kind: 'disconnected', sent: false }, sentAt: undefined }]
   }
 
   /** Gives a call up. `flush` afterwards. @returns whether it had been sent; `undefined` when it is not known here */
   abandon(call: Call): boolean | undefined {
-    return this.#line.abandon(call)
+    if (this.#ends === undefined) return this.#line.abandon(call)
+    const outcome = this.#ends.find(({ job }) => job === call)?.outcome
+    return outcome?.kind === 'disconnected' ? outcome.sent : undefined
   }
 
   flush(): void {

@@ -163,7 +163,7 @@ export class Line {
     this.#users.delete(user)
     const released = this.#carrier?.session?.release((call) => call.plc === user, this.#options.clock.now()) ?? []
     this.flush()
-    return released.map(({ job, sent }) => ({ job, outcome: { kind: 'disconnected', sent }, sentAt: undefined }))
+    return released
   }
 
   #open(): void {
