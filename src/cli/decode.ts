@@ -1,5 +1,5 @@
 import { explainFrame, explainJwFrame, formatExplanation } from '../entry/codec'
-import type { DataCode, ProfileId } from '../index'
+import { type DataCode, type ProfileId, RequestError } from '../index'
 import { bytesOfText, pastedBytes } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addDigitOptions, choice, jsonOption, profileOption, wRadixOption } from './connection-options'
@@ -12,6 +12,7 @@ const examples = [
   'decode D00000FFFF0300040000002A00 --request 500000FFFF03000C00100001040000640000A80100',
   "decode --text '500000FF03FF000018001004010000D*0001000001'",
   'decode --frame 1E 01FF0A00640000002044 0300',
+  "decode '<ENQ>00FFBR0M00100A<CR><LF>'",
   'decode --frame JW 4700240000080400',
   "decode '<Buffer 50 00 00 ff ff 03 00 0c 00 10 00 01 04 00 00 64 00 00 a8 01 00>'",
   'decode -            (reads the digits, or a hex dump, from the standard input)',
@@ -22,6 +23,8 @@ type Explanation = ReturnType<typeof explainFrame>
 
 interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wRadix'> {
   readonly frame?: (typeof FRAMES)[number]
+  readonly format?: (typeof FORMATS)[number]
+  readonly sumCheck?: boolean
   readonly request?: string
   readonly registration?: string
   readonly text?: boolean
@@ -30,29 +33,31 @@ interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wR
   readonly json?: boolean
 }
 
-const FRAMES = ['3E', '4E', 'ext', '1E', '4C', 'JW'] as const satisfies readonly (ExplainOptions['frame'] | 'JW')[]
+const FRAMES = ['3E', '4E', 'ext', '1E', '1C', '3C', '4C', 'JW'] as const satisfies readonly (
+  | ExplainOptions['frame']
+  | 'JW'
+)[]
+const FORMATS = ['1', '4', '5'] as const
+const formats = { '1': 1, '4': 4, '5': 5 } as const satisfies Record<(typeof FORMATS)[number], number>
 
 /** `melsec-jw decode` */
 export const decodeCommand: MakeCommand = (run) => {
   const command = newCommand('decode', 'explain a captured frame, field by field', examples)
     .description(
-      'Explain a captured frame field by field: a request or a response, in 3E, 4E or station extension (told by the frame itself), ' +
-        '1E or 4C format 5 or Sharp JW (to be said). What the values of a response mean is in its request: give that too.',
+      'Explain a captured frame field by field: a request or a response, in 3E, 4E, station extension, 1C, 3C or 4C (told by the frame itself), ' +
+        '1E or Sharp JW (to be said). What the values of a response mean is in its request: give that too.',
     )
     .argument(
       '<hex...>',
-      "bytes of one or several frames: hexadecimal digits, a hex dump, <Buffer ...> of Node.js, b'...' of Python; - for the standard input",
+      "bytes of one or several frames: hexadecimal digits, a hex dump, <Buffer ...> of Node.js, b'...' of Python, characters with <ENQ>, <CR> and so on; - for the standard input",
     )
     .option('--request <hex>', 'the request that the frame answers')
     .option('--registration <hex>', 'the Entry Monitor Device before it, when the frame answers an Execute Monitor')
     .option('--text', 'the arguments are the characters of frames in ASCII code, not hexadecimal digits')
-    .addOption(
-      choice(
-        '--frame <name>',
-        'frame; ext is station extension, 4C format 5, JW the commands of a Sharp JW-255CM',
-        FRAMES,
-      ),
-    )
+    .addOption(choice('--frame <name>', 'frame; ext is station extension, JW the commands of a Sharp JW-255CM', FRAMES))
+    .addOption(choice('--format <format>', 'of 1C, 3C and 4C; told by the frame', FORMATS))
+    .option('--sum-check', '1C, 3C and 4C: with sum check code; told by the frame where it can be')
+    .option('--no-sum-check', '1C, 3C and 4C: without sum check code')
     .addOption(choice('--code <code>', 'data code', ['binary', 'ascii']))
     .addOption(profileOption().default('generic'))
   addDigitOptions(command).addOption(wRadixOption())
@@ -64,9 +69,15 @@ export const decodeCommand: MakeCommand = (run) => {
 
 async function decode(terminal: Terminal, texts: readonly string[], options: DecodeOptions): Promise<number> {
   const given = texts.length === 1 && texts[0] === '-' ? await terminal.input() : texts.join(' ')
-  const pieces = (text: string, what: string) => (options.text === true ? [bytesOfText(text)] : pastedBytes(text, what))
+  // No frame in ASCII code begins with it: there it stands around a control code.
+  const pieces = (text: string, what: string) =>
+    options.text === true && !/^\s*</.test(text) ? [bytesOfText(text)] : pastedBytes(text, what)
   const settings = explainOptions(options, (text, what) => Buffer.concat(pieces(text, what)))
-  const explain = options.frame === 'JW' ? explainJwFrame : explainFrame
+  const isJw = options.frame === 'JW'
+  if (isJw && (options.format ?? options.sumCheck) !== undefined) {
+    throw new RequestError('BAD_OPTION', '--format and --sum-check are of 1C, 3C and 4C frames.', 'format')
+  }
+  const explain = isJw ? explainJwFrame : explainFrame
   const frames = explainPieces(pieces(given, 'the frame'), (rest) => explain(rest, settings))
   const wrong = frames.some(({ fault }) => fault !== undefined)
   if (options.json === true) terminal.out(json({ frames }))
@@ -78,10 +89,12 @@ async function decode(terminal: Terminal, texts: readonly string[], options: Dec
 }
 
 function explainOptions(options: DecodeOptions, bytes: (text: string, what: string) => Buffer): ExplainOptions {
-  const { frame, code, profile, request, registration, asciiXy, asciiZr, wRadix } = options
+  const { frame, format, sumCheck, code, profile, request, registration, asciiXy, asciiZr, wRadix } = options
   return {
     profile,
     ...(frame === undefined || frame === 'JW' ? {} : { frame }),
+    ...(format === undefined ? {} : { format: formats[format] }),
+    ...(sumCheck === undefined ? {} : { sumCheck }),
     ...(code === undefined ? {} : { code }),
     ...(asciiXy === undefined ? {} : { asciiXy }),
     ...(asciiZr === undefined ? {} : { asciiZr }),

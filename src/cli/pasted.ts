@@ -1,4 +1,5 @@
-// Bytes in the forms that programs and analysers print: Buffers of Node.js, literals of Python, hex dumps.
+// Bytes in the forms that programs and analysers print: Buffers of Node.js, literals of Python, hex dumps, control codes in words.
+import { controlCodes } from '../entry/codec'
 import { RequestError } from '../index'
 
 /**
@@ -7,7 +8,7 @@ import { RequestError } from '../index'
  * @example piecesOf('<Buffer 50 00> <Buffer d0 00>', 'the frame') // two Buffers
  */
 export function piecesOf(text: string, what: string): Buffer[] | undefined {
-  return nodeBuffers(text, what) ?? pythonLiterals(text, what) ?? hexDump(text, what)
+  return nodeBuffers(text, what) ?? pythonLiterals(text, what) ?? hexDump(text, what) ?? controlWords(text, what)
 }
 
 function bad(what: string, reason: string): never {
@@ -109,4 +110,20 @@ function bytesOfLine(rest: string, most = Number.POSITIVE_INFINITY): number[] {
     bytes.push(...Buffer.from(group, 'hex'))
   }
   return bytes
+}
+
+/** `<ENQ>` or `<05>` among characters, as terminal programs and logs of serial lines write control codes. */
+const CONTROL_WORD = /<([^<>]*)>/g
+const codes = new Map<string, number>([...Object.entries(controlCodes), ['FF', controlCodes.CL]])
+
+/** One piece: what stands on several lines is one stream. Blanks within a line are characters. */
+function controlWords(text: string, what: string): Buffer[] | undefined {
+  if (text.search(CONTROL_WORD) < 0) return undefined
+  const lines = text.split('\n').map((line) => line.trim())
+  const characters = lines.join('').replace(CONTROL_WORD, (whole, word: string) => {
+    const code = codes.get(word.toUpperCase()) ?? (/^[0-9a-f]{2}$/i.test(word) ? Number.parseInt(word, 16) : undefined)
+    if (code === undefined) bad(what, `${whole} is no control code: ${[...codes.keys()].join(', ')}, or two digits.`)
+    return String.fromCharCode(code)
+  })
+  return [Buffer.from(characters, 'latin1')]
 }

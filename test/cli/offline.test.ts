@@ -166,14 +166,37 @@ describe('decode', () => {
     expect(JSON.parse(out)).toMatchObject({ frames: [{ command: 'readWords' }, { command: 'readWords' }] })
   })
 
-  test('frames that must be said: 1E and 4C', async () => {
+  test('a frame that must be said: 1E', async () => {
     expect((await run('decode', '--frame', '1e', '01ff0a006400000020440300')).out).toMatch(
       /^1E request, .*D100, 3 points$/m,
     )
+  })
+
+  test('serial frames tell themselves, also in a log with control codes in words', async () => {
     const format5 = '10021200f80000ffff030000010400006400 00a8020010033145'.replaceAll(' ', '')
-    expect((await run('decode', '--frame', '4C', format5)).out).toMatch(
-      /^4C request, format 5: Read \(word units\), D100/m,
+    expect((await run('decode', format5)).out).toMatch(/^4C request, format 5: Read \(word units\), D100/m)
+    const log = '<ENQ>00FFBR0M00100A<CR><LF>\n<STX>00FF0110101101<ETX><CR><LF>\n  <05>F90000FF00040100'
+    const { code, out } = await run('decode', log)
+    expect(code).toBe(5)
+    expect(out).toMatch(/^1C request, format 4: Batch read \(bit units\) \(BR\), M10, 10 points$/m)
+    expect(out).toMatch(/^1C response, format 4$/m)
+    expect(out).toMatch(/^3C request, format 1: cut short$/m)
+    const model = await run(
+      'decode',
+      '<STX>F90000FF00FX5U-32MR/ES    4A21<ETX>',
+      '--request',
+      '<ENQ>F90000FF0001010000',
     )
+    expect(model.code).toBe(0)
+    expect(model.out).toMatch(/4A21H \(FX5U-32MR\/ES\)/)
+  })
+
+  test('format and sum check are said where the bytes do not tell them', async () => {
+    const wrong = '<ENQ>00FFTT005ABCDE79'
+    expect((await run('decode', wrong)).out).toMatch(/"79" \(should be "78"\)/)
+    expect((await run('decode', wrong, '--no-sum-check')).out).toMatch(/2 byte\(s\) left over/)
+    expect((await run('decode', '<ACK>00FF', '--format', '4')).out).toMatch(/CR LF is missing/)
+    expect((await run('decode', '<ACK>00FF', '--frame', '1C', '--format', '1', '--sum-check')).code).toBe(0)
   })
 
   test('X and Y as the family numbers them', async () => {
@@ -187,7 +210,11 @@ describe('decode', () => {
     [['decode', '500'], /3 hexadecimal digits are no whole number of bytes/],
     [['decode', ' '], /there are no bytes/],
     [['decode', REQUEST, '--request', 'xyz'], /the request: .*hexadecimal/],
-    [['decode', REQUEST, '--frame', '5E'], /3E, 4E, ext, 1E, 4C/],
+    [['decode', REQUEST, '--frame', '5E'], /3E, 4E, ext, 1E, 1C, 3C, 4C/],
+    [['decode', '<FOO>00FF'], /the frame: <FOO> is no control code: STX, ETX/],
+    [['decode', '<ACK>00FF', '--frame', '1C', '--format', '5'], /The 1C frame has formats 1, 4, not 5/],
+    [['decode', REQUEST, '--frame', '3E', '--sum-check'], /The 3E frame has no sumCheck/],
+    [['decode', '4700', '--frame', 'JW', '--format', '4'], /--format and --sum-check are of 1C/],
     [['decode'], /missing required argument/],
   ])('%j is wrong use', async (args, message) => {
     const { code, out, err } = await runHere(args)

@@ -12,11 +12,11 @@ import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { explainFrame, type FrameExplanation, formatExplanation } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
 import { frameFacts, type SlmpFrameName } from '../../src/melsec/frame/frames'
-import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { bytesOf, type FrameVector, type Message, vectorsOfKind } from '../vectors/vectors'
+import { expectMessage, explained, lines, uncovered } from './explained'
 
 type Code = 'binary' | 'ascii'
 const head: SlmpHead = { network: 0, station: 0xff, moduleIo: 0x3ff, multidrop: 0, timer: 16 }
@@ -61,55 +61,6 @@ function requestFrame(
 
 const octal = ({ xyRadix }: { readonly xyRadix?: 8 }): ExplainFrameOptions =>
   xyRadix === 8 ? { asciiXy: 'octal', xyRadix } : {}
-
-function uncovered({ rows, rest }: FrameExplanation, bytes: Buffer): string | undefined {
-  let next = 0
-  for (const { offset, length, name } of rows) {
-    if (offset !== next) return `${name} starts at ${offset}, expected ${next}`
-    next += length
-  }
-  return next === bytes.length - rest ? undefined : `the rows end at ${next} of ${bytes.length - rest}`
-}
-
-/** The values of a field; long ones stand in several rows. */
-function valueAt(rows: readonly AnnotatedRow[], path: string): unknown {
-  const own = rows.find(({ name }) => name === path)
-  if (own !== undefined) return own.value
-  const parts = rows.filter(
-    ({ name }) => name.startsWith(`${path}.`) && /^\d+(\.\.\d+)?$/.test(name.slice(path.length + 1)),
-  )
-  return parts.length === 0 ? undefined : parts.flatMap(({ value }) => value)
-}
-
-/** Paths and values of everything in a message that is one field. */
-function leavesOf(value: unknown, path = ''): [string, unknown][] {
-  const isLeaf =
-    typeof value !== 'object' ||
-    value === null ||
-    ('device' in value && typeof value.device === 'string') ||
-    (Array.isArray(value) && value.some((element) => typeof element !== 'object'))
-  if (isLeaf) return [[path, value]]
-  return Object.entries(value).flatMap(([name, part]) => leavesOf(part, path === '' ? name : `${path}.${name}`))
-}
-
-function expectMessage(explanation: FrameExplanation, message: unknown): void {
-  const leaves = leavesOf(message).filter(([, value]) => !Array.isArray(value) || value.length > 0)
-  // A password is shown as asterisks only.
-  const shown = leaves.map(([path, value]) => [path, path === 'password' ? '********' : value])
-  const found = leaves.map(([path]) => {
-    const value = valueAt(explanation.rows, path)
-    return [path, value instanceof Uint8Array ? [...value] : value]
-  })
-  expect(found).toEqual(shown)
-}
-
-function explained(bytes: Buffer, options: ExplainFrameOptions = {}): FrameExplanation {
-  const explanation = explainFrame(bytes, options)
-  expect(explanation.fault).toBeUndefined()
-  expect(explanation.rest).toBe(0)
-  expect(uncovered(explanation, bytes)).toBeUndefined()
-  return explanation
-}
 
 describe('3E, 4E and station extension frames of the manuals', () => {
   const vectors = vectorsOfKind('slmp', 'frame')
@@ -205,11 +156,6 @@ describe.each(['3E', '4E', 'ext'] as const)('the data of the manuals in a %s fra
     expect(explanation.notes).toEqual([])
   })
 })
-
-/** Rows as `name: text`. */
-function lines({ rows }: FrameExplanation): string[] {
-  return rows.map(({ name, text }) => `${name}: ${text}`)
-}
 
 describe('words', () => {
   const binary = { code: 'binary' } as const
@@ -423,7 +369,6 @@ describe('what is wrong', () => {
   })
 
   test.each([
-    ['1002f8', 'frame 4C'],
     ['4700', 'frame JW'],
     ['01ff0a00', 'frame 1E'],
     ['ffff', undefined],
@@ -527,10 +472,25 @@ describe('mutated frames', () => {
   })
 
   test('any bytes as any frame: never an exception, every byte in a row', () => {
-    const frames = [undefined, '3E', '4E', 'ext', '1E', '4C'] as const
-    const starts = ['', '5000', 'd000', '5400', 'd400', '6800', 'e800', '35303030', '44343030', '1002', '1002f800'].map(
-      (hex) => Buffer.from(hex, 'hex'),
-    )
+    const frames = [undefined, '3E', '4E', 'ext', '1E', '1C', '3C', '4C'] as const
+    const starts = [
+      '',
+      '5000',
+      'd000',
+      '5400',
+      'd400',
+      '6800',
+      'e800',
+      '35303030',
+      '44343030',
+      '1002',
+      '1002f800',
+      '053030',
+      '02463930',
+      '06',
+      '15463830',
+      '04',
+    ].map((hex) => Buffer.from(hex, 'hex'))
     fc.assert(
       fc.property(
         fc.constantFrom(...frames),
@@ -618,53 +578,6 @@ describe('1E frames', () => {
     expect([iqF.title, iqF.notes]).toEqual([expect.stringContaining('Y10'), [expect.stringContaining('say asciiXy')]])
     const fx3 = explainFrame(request, { frame: '1E', profile: 'fx3' })
     expect([fx3.title, fx3.notes]).toEqual([expect.stringContaining('Y20'), []])
-  })
-})
-
-describe('4C frames in format 5', () => {
-  const vectors = vectorsOfKind('mc-serial', 'frame')
-
-  test.each(vectors)('$id: every byte, with control codes and sum', (vector) => {
-    const explanation = explained(bytesOf(vector), { frame: '4C' })
-    expect(explanation).toMatchObject({ frame: '4C', direction: vector.side })
-    expect(explanation.endCode).toBe(vector.endCode)
-    expect(lines(explanation)[0]).toBe('start: DLE STX')
-    expect(lines(explanation)).toContain('end: DLE ETX')
-    if (vector.sumCheck === true) expect(lines(explanation).at(-1)).toMatch(/^sum: .* \(right\)$/)
-    if (vector.side === 'request') expectMessage(explanation, vector.message)
-  })
-
-  test('an answer with its request; doubled DLEs belong to their value', () => {
-    const framing = serialFraming({ frame: '4C', format: 5 })
-    const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
-    const { body } = protocolOf({ code: 'binary' }).exchange(commands.readWords, {
-      head: { device: 'D', number: 0x10 },
-      points: 2,
-    })
-    const request = framing.request.write(route, 0, body)
-    const answer = framing.response.write(route, 0, 0, Buffer.from('10101000', 'hex'))
-    const explanation = explained(answer, { frame: '4C', request })
-    expect(lines(explanation)).toContain('values: D16..D17: 4112 16')
-    expect(explanation.rows.find(({ name }) => name === 'values')).toMatchObject({
-      bytes: '10 10 10 10 10 10 00',
-      length: 7,
-    })
-    expect(lines(explained(request, { frame: '4C' }))).toContain('head: D16 (data register)')
-  })
-
-  test.each([
-    ['no DLE STX', '1102', 0, 'DLE STX'],
-    ['a lone DLE', '1002001005', 4, 'neither DLE nor ETX'],
-    ['no end', '10021200f80000ffff030000', 12, 'without DLE ETX'],
-    ['a wrong sum', '10021200f80000ffff0300000104000064000000a80200 10033030', undefined, ''],
-  ])('%s', (_what, hex, offset, message) => {
-    const bytes = Buffer.from(hex.replaceAll(' ', ''), 'hex')
-    const explanation = explainFrame(bytes, { frame: '4C' })
-    expect(uncovered(explanation, bytes)).toBeUndefined()
-    expect(explanation.fault).toMatchObject({
-      message: expect.stringContaining(message),
-      ...(offset === undefined ? {} : { offset }),
-    })
   })
 })
 

@@ -10,25 +10,10 @@ import {
   serialRoute,
 } from '../../src/melsec/frame/serial-frames'
 import { type SerialFrameOptions, type SerialFraming, serialFraming } from '../../src/melsec/frame/serial-framing'
+import { controlText } from '../vectors/control-text'
 
 const noLength = () => undefined
-/** Frames as people write them, e.g. `<STX>00FF01101<ETX>E2`. */
-const CODES: Readonly<Record<string, number>> = {
-  STX: 2,
-  ETX: 3,
-  EOT: 4,
-  ENQ: 5,
-  ACK: 6,
-  LF: 10,
-  CR: 13,
-  DLE: 16,
-  NAK: 21,
-}
-const frame = (text: string) =>
-  Buffer.from(
-    text.replace(/<(\w+)>/g, (_, name: string) => String.fromCharCode(CODES[name] ?? 0)),
-    'latin1',
-  )
+const frame = controlText
 
 const head1c = { station: 0, pc: 0xff }
 const own = (name: SerialFrameOptions['frame']) => serialRoute(name)

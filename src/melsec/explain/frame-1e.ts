@@ -2,18 +2,14 @@
 import { type DataCode, type Declaration, field, type Message, type Named, type Shape } from '../../codec/codec'
 import { annotate, type Direction, Explainer, type FrameExplanation, type Leaf } from '../../codec/explanation'
 import { aCompatibleCommands } from '../a-compatible/commands'
-import { aCompatibleDevice } from '../a-compatible/device'
 import { addressesOf } from '../a-compatible/frame-names'
-import { pcTypeCodes } from '../a-compatible/type-code'
-import { fromFrame, fx5Windows } from '../a-compatible/windows'
-import { formatDevice } from '../device/address'
 import { FORM_XY_OCTAL } from '../device/codec'
-import type { DeviceAddress } from '../device/device'
 import { mayEndWithZero, WITH_ABNORMAL_CODE } from '../frame/frame-1e'
 import { type ExplainSettings, noteBitUnits, noteUncertainDigits } from './body'
+import { describeFrameValue } from './frame-value'
 import { commandText, describeHead, endCodeText } from './head'
 import type { ExplainFrameOptions, Known } from './options'
-import { describeValue, devicesOf, splitRow, summaryOf } from './values'
+import { devicesOf, splitRow, summaryOf } from './values'
 
 const { fixed, u16, u8 } = field
 
@@ -117,25 +113,11 @@ function readData(
   const context = request === undefined ? {} : { context: { shape: command.request, message: request } }
   return explainer.read(
     shape,
-    (leaf) => describeData(leaf, settings),
+    (leaf) => describeFrameValue(leaf, settings),
     { form: formOf(settings), ...context },
     (row, bytes, message) =>
       splitRow(row, bytes, settings, devicesOf(row.name, { shape, message, ...context }, settings)),
   )
-}
-
-function describeData(leaf: Leaf, settings: ExplainSettings): string | undefined {
-  const { field: of, value } = leaf
-  if (of === aCompatibleCommands.readPcType.response.typeCode && typeof value === 'number') {
-    return `${value.toString(16).toUpperCase()}H (${pcTypeCodes.get(value)?.join(' or ') ?? 'not a type code of the manual'})`
-  }
-  const text = describeValue(leaf, settings)
-  if (of.kind !== 'value' || of.codec !== aCompatibleDevice) return text
-  const address = value as DeviceAddress
-  const real = fromFrame(fx5Windows, address)
-  return real === undefined || real.device === address.device
-    ? text
-    : `${text}, on iQ-F ${formatDevice(real, settings)}`
 }
 
 /** Some PLCs put a dummy character behind an odd number of bits (FX3U-ENET-ADP user's manual 7.5). */

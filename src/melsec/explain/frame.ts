@@ -1,11 +1,13 @@
 // A captured frame in words, field by field: for the command line, for traces, for people with a protocol analyser.
 import { type DataCode, field, isSameDigit, measure, type Shape } from '../../codec/codec'
 import { type Direction, Explainer, type FrameExplanation, notAFrame } from '../../codec/explanation'
+import { RequestError } from '../../errors'
 import type { Command } from '../commands/command'
 import { knownCommands } from '../commands/known'
 import { bodies } from '../frame/body'
 import { frameFacts, type SlmpFrameName } from '../frame/frames'
 import { isConnectedStation, ownStation } from '../frame/route'
+import { checkFormat, isSerialFrame, type SerialFrameName } from '../frame/serial-frames'
 import { slmpFraming } from '../frame/slmp-frame'
 import { addressOptionsOf, asciiXyOf } from '../profiles/profile'
 import { resolveProfile } from '../profiles/profiles'
@@ -19,9 +21,9 @@ import {
   readRequestBody,
 } from './body'
 import { explain1e } from './frame-1e'
-import { explain4c } from './frame-4c'
 import { describeHead, endCodeText } from './head'
 import type { ExplainFrameOptions, Known } from './options'
+import { explainSerial, serialFrameOf } from './serial'
 
 export {
   type AnnotatedRow,
@@ -46,7 +48,8 @@ export function explainFrame(bytes: Buffer, options: ExplainFrameOptions = {}): 
     commands: options.commands ?? knownCommands,
   }
   if (options.frame === '1E') return explain1e(bytes, known, options)
-  if (options.frame === '4C') return explain4c(bytes, { ...known, code: 'binary' }, options)
+  const serial = serialFrameIn(bytes, options)
+  if (serial !== undefined) return explainSerial(bytes, serial, known, options)
   const detected = detect(bytes, options)
   return typeof detected === 'string'
     ? notAFrame(bytes, detected, hintsFor(bytes))
@@ -54,6 +57,20 @@ export function explainFrame(bytes: Buffer, options: ExplainFrameOptions = {}): 
 }
 
 // --- which frame it is
+
+/** The serial frame that is said or shown by the bytes. @throws RequestError BAD_OPTION for a format it does not have */
+function serialFrameIn(bytes: Buffer, { frame, format, sumCheck }: ExplainFrameOptions): SerialFrameName | undefined {
+  const found = frame === undefined ? serialFrameOf(bytes) : isSerialFrame(frame) ? frame : undefined
+  if (frame !== undefined && found === undefined && (format ?? sumCheck) !== undefined) {
+    const option = format === undefined ? 'sumCheck' : 'format'
+    throw new RequestError('BAD_OPTION', `The ${frame} frame has no ${option}: 1C, 3C and 4C have.`, option)
+  }
+  if (format === undefined) return found
+  // Who says a format means a serial frame.
+  const serial = found ?? (format === 5 ? '4C' : '1C')
+  if (frame !== undefined) checkFormat(serial, format)
+  return serial
+}
 
 interface Subheader {
   readonly frame: SlmpFrameName
@@ -115,7 +132,6 @@ function shown({ bytes, code }: Subheader): string {
 
 /** What else the bytes may be. */
 function hintsFor(bytes: Buffer): readonly string[] {
-  if (bytes[0] === 0x10 && bytes[1] === 0x02) return ['They begin like a 4C frame in format 5: say frame 4C.']
   if ((bytes[0] === 0x47 || bytes[0] === 0x45) && bytes[1] === 0)
     return ['They begin like a Sharp JW message: say frame JW.']
   const first = bytes[0] ?? 0

@@ -3,13 +3,18 @@ import type { DataCode } from '../../codec/codec'
 import type { Direction } from '../../codec/explanation'
 import type { Command } from '../commands/command'
 import type { FrameName } from '../frame/frames'
+import type { SerialFormat, SerialFrameName } from '../frame/serial-frames'
 import type { ProfileId, ProfileInfo } from '../profiles/profile'
 import type { ExplainSettings } from './body'
 
 /** What is known of the frame; what is left out is found out as far as the bytes tell it. */
 export interface ExplainFrameOptions {
-  /** `4C`: format 5. 1E and 4C must be said; 3E, 4E and the station extension frame are told by their subheaders. */
-  readonly frame?: FrameName | '4C'
+  /** 1E must be said; the others are told by their subheaders and control codes. */
+  readonly frame?: FrameName | SerialFrameName
+  /** Of 1C, 3C and 4C; told by the bytes. With 1 and 4 it matters that CR LF is behind a frame, or not. */
+  readonly format?: SerialFormat
+  /** Of 1C, 3C and 4C; told by the bytes as far as they tell it: a request whose sum is wrong does not. */
+  readonly sumCheck?: boolean
   /** Data code; told by the bytes where they tell it. */
   readonly code?: DataCode
   /** Request or response; told by the subheader where there is one. */

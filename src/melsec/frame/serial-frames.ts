@@ -4,7 +4,7 @@ import { hex } from '../../basics/hex'
 import type { DataCode } from '../../codec/codec'
 import { RequestError } from '../../errors'
 
-/** Control codes (42.3). CL is the form feed of ASCII. */
+/** Control codes of the serial frames by their names (42.3). CL is the form feed of ASCII. */
 export const controlCodes = {
   STX: 0x02,
   ETX: 0x03,
@@ -64,7 +64,7 @@ export interface SerialFrameFacts {
   readonly errorDigits: 2 | 4
 }
 
-/** Formats 2 and 3 do not exist on FX5. */
+/** Format of a serial frame: 1 and 4 in ASCII code, 5 (4C only) in binary code. Formats 2 and 3 do not exist on FX5. */
 export type SerialFormat = 1 | 4 | 5
 
 export const serialFrameFacts = {
@@ -78,11 +78,23 @@ export const serialFrameFacts = {
   },
 } as const satisfies Readonly<Record<string, SerialFrameFacts>>
 
+/** Name of a serial frame. */
 export type SerialFrameName = keyof typeof serialFrameFacts
 
 /** Facts of a frame whatever frame it is. */
 export function factsOfSerial(frame: SerialFrameName): SerialFrameFacts {
   return serialFrameFacts[frame]
+}
+
+export function isSerialFrame(name: string): name is SerialFrameName {
+  return Object.hasOwn(serialFrameFacts, name)
+}
+
+/** @throws RequestError BAD_OPTION when the frame does not have the format */
+export function checkFormat(frame: SerialFrameName, format: SerialFormat): void {
+  const { formats } = factsOfSerial(frame)
+  if (formats.includes(format)) return
+  throw new RequestError('BAD_OPTION', `The ${frame} frame has formats ${formats.join(', ')}, not ${format}.`, 'format')
 }
 
 export const serialFormatCodes: Readonly<Record<SerialFormat, DataCode>> = { 1: 'ascii', 4: 'ascii', 5: 'binary' }

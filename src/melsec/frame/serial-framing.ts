@@ -1,12 +1,12 @@
 // Framing of the serial frames: frame, format, and what the manual leaves open.
 import type { DataCode } from '../../codec/codec'
-import { RequestError } from '../../errors'
 import type { Framing, Head } from '../../link/link'
 import { type BodyLayout, plainBody, serialBody } from './body'
 import { asciiFraming } from './serial-ascii'
 import { format5 } from './serial-binary'
 import {
   type ControlCode,
+  checkFormat,
   controlCodes,
   factsOfSerial,
   type SerialFormat,
@@ -49,14 +49,7 @@ export interface SerialFraming extends Framing<SerialHead> {
  */
 export function serialFraming(options: SerialFrameOptions): SerialFraming {
   const { frame, format, sumCheck = true, errorInformation = false } = options
-  const { formats } = factsOfSerial(frame)
-  if (!formats.includes(format)) {
-    throw new RequestError(
-      'BAD_OPTION',
-      `The ${frame} frame has formats ${formats.join(', ')}, not ${format}.`,
-      'format',
-    )
-  }
+  checkFormat(frame, format)
   const common = {
     name: `${frame} format ${format}`,
     correlation: 'order',
