@@ -210,7 +210,14 @@ function firstParameter({ typeParams }: SyntaxNode): string | undefined {
 }
 
 /** What only tests use, on purpose: the ground that carries more, and a table that they hold against the manuals. */
-const FOR_TESTS: readonly string[] = ['jwProtocol', 'oneCProtocol', 'serialFraming', 'serialRoute', 'endCodeTables']
+const FOR_TESTS: readonly string[] = [
+  'jwProtocol',
+  'serialFraming',
+  'serialRoute',
+  'endCodeTables',
+  'protocolOver1c',
+  'serialProfiles',
+]
 
 /** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */
 function unusedExports(files: readonly { readonly path: string; readonly tree: SyntaxNode }[]): string[] {

@@ -21,6 +21,7 @@ export interface Exchange<T> extends Question {
 }
 
 const NOTHING = Buffer.alloc(0)
+const CHARACTER = '0'
 
 /** What stands around a body. */
 export interface Envelope<H extends Head> {
@@ -44,4 +45,9 @@ export function framed<H extends Head>(
     mismatch: (answered) => framing.mismatch(head, answered),
     answerBody: () => responseLength(head, NOTHING),
   }
+}
+
+/** Bytes of the frame of an answer that takes the request, with a body of so many: characters, which every frame carries as they are. */
+export function answerBytes<H extends Head>({ framing, head }: Envelope<H>, body: number): number {
+  return framing.response.write(head, 0, 0, Buffer.alloc(body, CHARACTER)).length
 }

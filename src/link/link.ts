@@ -8,7 +8,7 @@ export {
   endCodeFacts,
   type RefusalFacts,
 } from './end-code-facts'
-export { type Exchange, framed } from './exchange'
+export { answerBytes, type Exchange, framed } from './exchange'
 export { type Echo, Fence, type FenceOptions } from './fence'
 export type { FrameExplainer, KnownFrames, ReceivedFrame, SentFrame } from './frame-explainer'
 export type {

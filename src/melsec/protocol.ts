@@ -13,7 +13,15 @@ import {
   writerOf,
 } from '../codec/codec'
 import { EndCodeError, ProtocolError, RequestError } from '../errors'
-import { type Exchange, type Framing, framed, type Head, type RequestFrame, type ResponseFrame } from '../link/link'
+import {
+  answerBytes,
+  type Exchange,
+  type Framing,
+  framed,
+  type Head,
+  type RequestFrame,
+  type ResponseFrame,
+} from '../link/link'
 import type { Command, RequestOf, ResponseOf } from './commands/command'
 import { type CommandName, commands } from './commands/commands'
 import { FORM_XY_OCTAL, FORM_ZR_HEX } from './device/codec'
@@ -382,7 +390,7 @@ export class MelsecProtocol<H extends Head> extends SlmpCommandSet {
 
   /** Bytes of the frame of an answer with this body. */
   answerBytes(body: number): number {
-    return this.framing.response.write(this.#head, 0, 0, Buffer.alloc(body)).length
+    return answerBytes({ framing: this.framing, head: this.#head }, body)
   }
 }
 

@@ -7,7 +7,7 @@ import { type DeviceAddress, type DeviceInfo, deviceInfo } from '../../melsec/de
 import type { DeviceForm } from '../../melsec/device/device-form'
 import { type FormProblem, formOrProblem } from '../../melsec/device/form'
 import { tallyOf } from '../../melsec/device/limit'
-import { doubtOf, type Profile } from '../../melsec/profiles/profile'
+import { doubtfulUse, doubtOf, type Profile } from '../../melsec/profiles/profile'
 import { boundsOf, fits, type Load, largest, type PlanProtocol } from './limit'
 
 /** What a cell of an area is: one bit, one word (of a bit device its 16 points), or all words of a device of several. */
@@ -118,7 +118,7 @@ function waysOf(protocol: PlanProtocol, direction: Direction, kind: CellKind, ad
       : attempt({ command: randomCommand, ...(kind === 'bit' ? {} : ({ list } as const)) })
   const form = formIn(direct) ?? formIn(random)
   if (form === undefined) throw refusalOf(isModified(address) ? [random, direct] : [direct, random])
-  const freely = randomCommand === undefined || chosenFreely(protocol, randomCommand, direct)
+  const freely = randomCommand === undefined || chosenFreely(protocol, randomCommand, info, direct)
   const hasBlock = direction === 'read' && formIn(direct) !== undefined
   const block = hasBlock ? blockOf(protocol, kind, info, form, attempt) : undefined
   return {
@@ -140,9 +140,13 @@ function refusalOf(tried: readonly Tried[]): RequestError {
   return new RequestError(problem?.code ?? 'UNSUPPORTED', problem?.message ?? 'No command takes it.', problem?.field)
 }
 
-/** A command that not every CPU of the family has is taken only where nothing else does it. */
-function chosenFreely(protocol: PlanProtocol, command: CommandName, direct: Tried): boolean {
-  return doubtOf(protocol.profile, command) === undefined || formIn(direct) === undefined
+/** A command that not every CPU of the family has, or not for the device, is taken only where nothing else does it. */
+function chosenFreely(protocol: PlanProtocol, command: CommandName, info: DeviceInfo, direct: Tried): boolean {
+  return !isDoubtful(protocol.profile, command, info) || formIn(direct) === undefined
+}
+
+function isDoubtful(profile: Profile, command: CommandName, { name }: DeviceInfo): boolean {
+  return doubtOf(profile, command) !== undefined || doubtfulUse(profile, command, name) !== undefined
 }
 
 function blockOf(
@@ -152,7 +156,7 @@ function blockOf(
   form: DeviceForm,
   attempt: Try,
 ): Ways['block'] {
-  if (kind !== 'word' || doubtOf(protocol.profile, 'readBlock') !== undefined) return undefined
+  if (kind !== 'word' || isDoubtful(protocol.profile, 'readBlock', info)) return undefined
   const list = info.unit === 'bit' ? 'bitBlocks' : 'wordBlocks'
   return attempt({ command: 'readBlock', list, points: 1 }) === form ? list : undefined
 }

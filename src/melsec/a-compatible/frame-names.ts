@@ -26,8 +26,7 @@ export function withFrameNames<N extends string>(
     return window === undefined ? address : toFrame(window, address)
   }
   if (isAddress(message.head)) {
-    const points = typeof message.points === 'number' ? message.points : sizeOf(message.values)
-    return { ...message, head: moved(message.head, points ?? 1, 'head') }
+    return { ...message, head: moved(message.head, pointsOf(message), 'head') }
   }
   const list = LISTS.find((name) => Array.isArray(message[name]))
   const elements = list === undefined ? undefined : message[list]
@@ -63,6 +62,12 @@ function checkCount<N extends string>(
   const max = pointLimit(rules, command, 'M') ?? 0
   if (devices.length <= max) return
   throw new RequestError('LIMIT_EXCEEDED', `${devices.length} devices in one request, at most ${max}. Split it.`, list)
+}
+
+/** Points from the first device on, or of each device of a list. */
+export function pointsOf({ head, points, values }: Message): number {
+  if (!isAddress(head)) return 1
+  return typeof points === 'number' ? points : (sizeOf(values) ?? 1)
 }
 
 /** The devices of a request. */

@@ -4,7 +4,15 @@
  */
 import { type DataCode, decode, encode, type Message, readerOf, writerOf } from '../../codec/codec'
 import { RequestError } from '../../errors'
-import type { Exchange, FrameExplainer, Framing, Head, HeadProtocol, NamedCommand } from '../../link/link'
+import {
+  answerBytes,
+  type Exchange,
+  type FrameExplainer,
+  type Framing,
+  type Head,
+  type HeadProtocol,
+  type NamedCommand,
+} from '../../link/link'
 import type { ClientProtocol, ShownAs } from '../client-protocol'
 import type { Command, RequestOf, ResponseOf } from '../commands/command'
 import { deviceInfo } from '../device/device'
@@ -59,8 +67,7 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
   }
 
   answerBytes(body: number): number {
-    // Zeros in either code are characters of every frame.
-    return this.framing.response.write(this.#set.anyHead, 0, 0, Buffer.alloc(body, '0')).length
+    return answerBytes({ framing: this.framing, head: this.#set.anyHead }, body)
   }
 
   explainer(shownAs: ShownAs): FrameExplainer {

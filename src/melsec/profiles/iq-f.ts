@@ -48,8 +48,8 @@ export const fx5Limits: readonly LimitRule[] = [
   { commands: ['readBlock'], forms, max: 960, asciiFactor: 2, unit: 'points', endCode: 0xc052, source: manual },
 ]
 
-const limits: readonly LimitRule[] = [
-  passwordLimit(6, 32, 'FX5 communication manual 38.6'),
+/** Of the CPU module, without the password. */
+export const iqFLimits: readonly LimitRule[] = [
   ...fx5Limits,
   { commands: ['writeWords'], forms, max: 960, asciiFactor: 2, unit: 'points', endCode: 0xc052, source: manual },
   { commands: ['readRandom'], forms, max: 192, ...twice, unit: 'points', endCode: 0xc054, source: manual },
@@ -135,7 +135,7 @@ export const iqF: Profile = {
     },
   ],
   aCompatible: fx5Over1e,
-  limits,
+  limits: [passwordLimit(6, 32, 'FX5 communication manual 38.6'), ...iqFLimits],
   ranges: {
     points: pointsOf(
       {

@@ -53,6 +53,8 @@ export interface DeviceExclusion {
   readonly endCode: number
   readonly reason: string
   readonly instead: string
+  /** It is printed of other ports only: sent when asked for, and never chosen by the planner. */
+  readonly doubtful?: true
   readonly source: string
 }
 
@@ -409,9 +411,16 @@ export function doubtOf(profile: Profile, command: CommandName): Lack | undefine
 
 /** Why the command does not take the device on this family; undefined when nothing is known against it. */
 export function exclusionOf(profile: Profile, command: string, device: DeviceName): DeviceExclusion | undefined {
-  return profile.exclusions.find(
-    ({ commands, devices }) => commands.some((name) => name === command) && devices.includes(device),
-  )
+  return profile.exclusions.find((one) => one.doubtful !== true && isAbout(one, command, device))
+}
+
+/** Why the planner should not choose the command for the device by itself; undefined when it may. */
+export function doubtfulUse(profile: Profile, command: string, device: DeviceName): DeviceExclusion | undefined {
+  return profile.exclusions.find((one) => one.doubtful === true && isAbout(one, command, device))
+}
+
+function isAbout({ commands, devices }: DeviceExclusion, command: string, device: DeviceName): boolean {
+  return commands.some((name) => name === command) && devices.includes(device)
 }
 
 /**
