@@ -1,48 +1,106 @@
-/** The 1C command set in the plainest of its frames: format 1 without sum check. */
-import type { Framing, Head } from '../../src/link/link'
+/** The 1C command set, and a PLC that speaks it: words and bits by the names that they have in the frame. */
+import type { Message } from '../../src/codec/codec'
+import type { Exchange, HeadProtocol, NamedCommand, RequestFrame } from '../../src/link/link'
+import { deviceInfo } from '../../src/melsec/device/device'
+import type { SerialHead } from '../../src/melsec/frame/serial-frames'
+import { type SerialFrameOptions, type SerialFraming, serialFraming } from '../../src/melsec/frame/serial-framing'
+import { isOneC, oneCCommands } from '../../src/melsec/one-c/commands'
 
-export type Head1c = { readonly station: number; readonly pc: number }
-export const HEAD_1C: Head1c = { station: 0, pc: 0xff }
+export const HEAD_1C: SerialHead = { station: 0, pc: 0xff }
 
-const [STX, ETX, ENQ, ACK, NAK] = ['\x02', '\x03', '\x05', '\x06', '\x15']
-const two = (number: number) => number.toString(16).toUpperCase().padStart(2, '0')
-const headText = ({ station, pc }: Head1c) => two(station) + two(pc)
-const headOf = (bytes: Buffer): Head1c => ({
-  station: Number.parseInt(bytes.toString('latin1', 1, 3), 16),
-  pc: Number.parseInt(bytes.toString('latin1', 3, 5), 16),
-})
+export function framing1c(format: 1 | 4 = 1, options: Partial<SerialFrameOptions> = {}): SerialFraming {
+  return serialFraming({ frame: '1C', format, ...options })
+}
 
-export const framing1c: Framing<Head1c> = {
-  name: '1C format 1',
-  correlation: 'order',
-  request: {
-    write: (head, _serial, body) => Buffer.concat([Buffer.from(ENQ + headText(head), 'latin1'), body]),
-    scan(bytes, bodyLength) {
-      if (bytes.length < 5) return undefined
-      const head = headOf(bytes)
-      const length = bodyLength(head, bytes.subarray(5))
-      if (length === undefined || bytes.length < 5 + length) return undefined
-      return { used: 5 + length, frame: { head, serial: undefined, body: bytes.subarray(5, 5 + length) } }
-    },
-  },
-  response: {
-    write(head, _serial, endCode, body) {
-      const text = headText(head)
-      if (endCode !== 0) return Buffer.from(NAK + text + two(endCode), 'latin1')
-      if (body.length === 0) return Buffer.from(ACK + text, 'latin1')
-      return Buffer.concat([Buffer.from(STX + text, 'latin1'), body, Buffer.from(ETX, 'latin1')])
-    },
-    scan(bytes) {
-      if (bytes.length < 5) return undefined
-      const start = bytes.toString('latin1', 0, 1)
-      const head = headOf(bytes)
-      const end = start === STX ? bytes.indexOf(ETX, 5, 'latin1') : start === NAK ? 7 : 5
-      if (end < 0 || bytes.length < end) return undefined
-      const endCode = start === NAK ? Number.parseInt(bytes.toString('latin1', 5, 7), 16) : 0
-      const body = start === STX ? bytes.subarray(5, end) : Buffer.alloc(0)
-      return { used: start === STX ? end + 1 : end, frame: { head, serial: undefined, endCode, body } }
-    },
-  },
-  mismatch: (asked: Head1c, answered: Head) =>
-    asked.station === answered.station && asked.pc === answered.pc ? undefined : 'another station answered',
+export function command(name: string): NamedCommand {
+  if (!isOneC(name)) throw new Error(`no command ${name}`)
+  return oneCCommands[name]
+}
+
+interface Address {
+  readonly device: Parameters<typeof deviceInfo>[0]
+  readonly number: number
+}
+
+/** Written from the manual, without the rules of src: it takes whatever the frame says. */
+export class Plc1c {
+  /** Name and message of each request. */
+  readonly seen: { readonly name: string; readonly message: Message }[] = []
+  readonly #words = new Map<string, number>()
+  readonly #bits = new Map<string, boolean>()
+
+  constructor(private readonly protocol: HeadProtocol<SerialHead>) {}
+
+  bit({ device, number }: Address): boolean {
+    return this.#bits.get(`${device}${number}`) ?? false
+  }
+
+  setBit({ device, number }: Address, on: boolean): void {
+    this.#bits.set(`${device}${number}`, on)
+  }
+
+  word({ device, number }: Address): number {
+    if (deviceInfo(device).unit !== 'bit') return this.#words.get(`${device}${number}`) ?? 0
+    return Array.from({ length: 16 }, (_, i) => (this.bit({ device, number: number + i }) ? 1 << i : 0)).reduce(
+      (a, b) => a | b,
+    )
+  }
+
+  setWord({ device, number }: Address, word: number): void {
+    if (deviceInfo(device).unit !== 'bit') this.#words.set(`${device}${number}`, word)
+    else for (let i = 0; i < 16; i++) this.setBit({ device, number: number + i }, (word & (1 << i)) !== 0)
+  }
+
+  /** As a planner sends. */
+  readonly send = <T>(exchange: Exchange<T>): Promise<T> => {
+    const { framing } = this.protocol
+    const request = framing.request.scan(exchange.write(0), (head, soFar) => this.protocol.requestLength(head, soFar))
+    if (request === undefined) throw new Error('the request is not whole')
+    const answer = framing.response.write(request.frame.head, 0, 0, this.answer(request.frame).body)
+    const response = framing.response.scan(answer, exchange.responseLength)
+    if (response === undefined) throw new Error('the answer is not whole')
+    return Promise.resolve(exchange.decode(response.frame))
+  }
+
+  answer(frame: RequestFrame<SerialHead>): { readonly endCode: number; readonly body: Buffer } {
+    const { command: asked, message } = this.protocol.readRequest(frame)
+    this.seen.push({ name: asked.name, message })
+    const response = this.#carriedOut(asked.name, message)
+    return { endCode: 0, body: this.protocol.writeResponse(asked, message, response) }
+  }
+
+  #carriedOut(name: string, message: Message): Message {
+    const head = message.head as Address
+    const at = (i: number, step = 1): Address => ({ ...head, number: head.number + step * i })
+    const step = head !== undefined && deviceInfo(head.device).unit === 'bit' ? 16 : 1
+    switch (name) {
+      case 'BR':
+        return { values: Array.from({ length: Number(message.points) }, (_, i) => this.bit(at(i))) }
+      case 'WR':
+      case 'QR':
+        return { values: Array.from({ length: Number(message.points) }, (_, i) => this.word(at(i, step))) }
+      case 'BW':
+        for (const [i, value] of (message.values as boolean[]).entries()) this.setBit(at(i), value)
+        return {}
+      case 'WW':
+      case 'QW':
+        for (const [i, value] of (message.values as number[]).entries()) this.setWord(at(i, step), value)
+        return {}
+      case 'BT':
+        for (const { device, value } of message.bits as { device: Address; value: boolean }[])
+          this.setBit(device, value)
+        return {}
+      case 'WT':
+      case 'QT':
+        for (const { device, value } of message.words as { device: Address; value: number }[])
+          this.setWord(device, value)
+        return {}
+      case 'PC':
+        return { typeCode: 0xf3 }
+      case 'TT':
+        return { data: message.data }
+      default:
+        return {}
+    }
+  }
 }

@@ -9,6 +9,7 @@ import { pointLimit } from '../../src/melsec/a-compatible/device-rules'
 import { fx3Windows } from '../../src/melsec/a-compatible/windows'
 import { FORM_XY_OCTAL } from '../../src/melsec/device/codec'
 import { type DeviceName, deviceInfo } from '../../src/melsec/device/device'
+import type { SerialHead } from '../../src/melsec/frame/serial-frames'
 import { isOneC, type OneCCommandName, oneCCommands } from '../../src/melsec/one-c/commands'
 import { longDevice, shortDevice } from '../../src/melsec/one-c/device'
 import { codeOf, frontShape } from '../../src/melsec/one-c/front'
@@ -17,26 +18,21 @@ import { oneCLimits, oneCRules } from '../../src/melsec/one-c/rules'
 import { Line } from '../link/line'
 import { arbitrary } from '../support/arbitrary'
 import { bytesOf, vectorsOf } from '../vectors/vectors'
-import { framing1c, HEAD_1C, type Head1c } from './one-c-support'
+import { command, framing1c, HEAD_1C, Plc1c } from './one-c-support'
 
-function command(name: string): NamedCommand {
-  if (!isOneC(name)) throw new Error(`no command ${name}`)
-  return oneCCommands[name]
+function protocol(options: Partial<OneCOptions<SerialHead>> = {}) {
+  return oneCProtocol({ framing: framing1c(), head: HEAD_1C, asciiXy: 'hexadecimal', ...options })
 }
 
-function protocol(options: Partial<OneCOptions<Head1c>> = {}) {
-  return oneCProtocol({ framing: framing1c, head: HEAD_1C, asciiXy: 'hexadecimal', ...options })
-}
-
-function exchange(name: string, message: Message, options: Partial<OneCOptions<Head1c>> = {}) {
+function exchange(name: string, message: Message, options: Partial<OneCOptions<SerialHead>> = {}) {
   return protocol(options).exchange(command(name), message)
 }
 
-function body(name: string, message: Message, options: Partial<OneCOptions<Head1c>> = {}): string {
+function body(name: string, message: Message, options: Partial<OneCOptions<SerialHead>> = {}): string {
   return exchange(name, message, options).body.toString('latin1')
 }
 
-function refused(name: string, message: Message, options: Partial<OneCOptions<Head1c>> = {}): RequestError {
+function refused(name: string, message: Message, options: Partial<OneCOptions<SerialHead>> = {}): RequestError {
   try {
     exchange(name, message, options)
   } catch (error) {
@@ -296,37 +292,81 @@ describe('the global signal', () => {
   })
 })
 
-describe.each(['whole', 'byte by byte'] as const)('session and responder in memory, %s', (wire) => {
+const wires = (['whole', 'byte by byte'] as const).flatMap((wire) =>
+  ([1, 4] as const).flatMap((format) => [true, false].map((sumCheck) => ({ wire, format, sumCheck }))),
+)
+
+describe.each(wires)('session and responder in memory, $wire, format $format, sum check $sumCheck', (how) => {
   test('every command reads what the other side wrote', () => {
-    const mc = protocol()
-    const memory = new Map<string, unknown>()
+    const framing = framing1c(how.format, { sumCheck: how.sumCheck })
+    const mc = protocol({ framing, asciiXy: 'octal' })
+    const plc = new Plc1c(mc)
     const line = new Line(
-      framing1c,
+      framing,
       {
         bodyLength: (head, soFar) => mc.requestLength(head, soFar),
         answer(frame) {
-          const { command: asked, message } = mc.readRequest(frame)
-          if (asked.name === 'RS') return { endCode: 0x18, body: Buffer.alloc(0) }
-          const response =
-            asked.name === 'PC' ? { typeCode: 0xf3 } : asked.name === 'TT' ? message : { values: memory.get('values') }
-          if (asked.effect === 'write') memory.set('values', message.values)
-          const isRead = asked.effect === 'read' || asked.effect === 'diagnose'
-          return { endCode: 0, body: isRead ? mc.writeResponse(asked, message, response) : Buffer.alloc(0) }
+          const answer = plc.answer(frame)
+          return plc.seen.at(-1)?.name === 'RS' ? { endCode: 0x18, body: Buffer.alloc(0) } : answer
         },
       },
-      wire,
+      how.wire,
     )
     const values = [0, 1, 0x0303, 0xffff]
     expect(line.ask(mc.exchange(oneCCommands.WW, { head: at('D', 16), values }))).toEqual({})
     expect(line.ask(mc.exchange(oneCCommands.QR, { head: at('D', 16), points: 4 }))).toEqual({ values })
     const bits = [true, false, true]
-    expect(line.ask(mc.exchange(oneCCommands.BW, { head: at('M', 5), values: bits }))).toEqual({})
-    expect(line.ask(mc.exchange(oneCCommands.BR, { head: at('M', 5), points: 3 }))).toEqual({ values: bits })
+    expect(line.ask(mc.exchange(oneCCommands.BW, { head: at('Y', 5), values: bits }))).toEqual({})
+    expect(line.ask(mc.exchange(oneCCommands.BR, { head: at('Y', 5), points: 3 }))).toEqual({ values: bits })
+    expect(line.ask(mc.exchange(oneCCommands.WR, { head: at('Y', 0), points: 1 }))).toEqual({ values: [0b1010_0000] })
+    const random = [{ device: at('R', 32_767), value: 7 }]
+    expect(line.ask(mc.exchange(oneCCommands.QT, { words: random }))).toEqual({})
     expect(line.ask(mc.exchange(oneCCommands.PC, {}))).toEqual({ typeCode: 0xf3 })
     expect(line.ask(mc.exchange(oneCCommands.TT, { data: 'ABCDE' }))).toEqual({ data: 'ABCDE' })
     expect(line.ask(mc.exchange(oneCCommands.GW, { on: true }))).toEqual({})
     expect(line.fails(mc.exchange(oneCCommands.RS, {}))).toMatchObject({ endCode: 0x18, about: 'state' })
     expect(line.dropped).toBeUndefined()
+    expect(plc.seen.map(({ name }) => name)).toEqual(['WW', 'QR', 'BW', 'BR', 'WR', 'QT', 'PC', 'TT', 'GW', 'RS'])
+    expect(plc.word(at('R', 32_767))).toBe(7)
+  })
+})
+
+describe('vectors of whole frames', () => {
+  const frames = of1c.flatMap((vector) => (vector.kind === 'frame' ? [vector] : []))
+  const spoken = (vector: (typeof frames)[number]) => {
+    const { station = 0, pc = 0xff } = vector.head?.route ?? {}
+    const framing = framing1c(vector.frame === '1C4' ? 4 : 1, { sumCheck: vector.sumCheck === true })
+    return protocol({
+      framing,
+      head: { station, pc },
+      asciiXy: xyOf(vector),
+      ...(vector.messageWait === undefined ? {} : { messageWait: vector.messageWait }),
+    })
+  }
+
+  test.each(frames.filter(({ side }) => side === 'request'))('$id is sent, and read by the PLC side', (vector) => {
+    const mc = spoken(vector)
+    expect(
+      mc
+        .exchange(command(vector.command), vector.message ?? {})
+        .write(0)
+        .toString('hex'),
+    ).toBe(vector.hex)
+    const scanned = mc.framing.request.scan(bytesOf(vector), (head, soFar) => mc.requestLength(head, soFar))
+    if (scanned === undefined) throw new Error('the request is not whole')
+    expect(mc.readRequest(scanned.frame)).toMatchObject({ command: { name: vector.command }, message: vector.message })
+  })
+
+  test.each(frames.filter(({ side }) => side === 'response'))('$id is written by the PLC side and read', (vector) => {
+    const mc = spoken(vector)
+    const { request = {}, message = {}, endCode = 0 } = vector
+    const asked = mc.exchange(command(vector.command), request)
+    const scanned = mc.framing.response.scan(bytesOf(vector), asked.responseLength)
+    if (scanned === undefined) throw new Error('the answer is not whole')
+    if (endCode === 0) expect(asked.decode(scanned.frame)).toEqual(message)
+    else expect(() => asked.decode(scanned.frame)).toThrow(EndCodeError)
+    const body = endCode === 0 ? mc.writeResponse(command(vector.command), request, message) : Buffer.alloc(0)
+    expect(mc.framing.response.write(scanned.frame.head, 0, endCode, body).toString('hex')).toBe(vector.hex)
   })
 })
 
@@ -345,7 +385,7 @@ test.each(Object.keys(oneCCommands).filter(isOneC))(
           if (error instanceof RequestError) return
           throw error
         }
-        const scanned = framing1c.request.scan(sent, (head, soFar) => mc.requestLength(head, soFar))
+        const scanned = mc.framing.request.scan(sent, (head, soFar) => mc.requestLength(head, soFar))
         expect(scanned?.used).toBe(sent.length)
         if (scanned === undefined) return
         expect(mc.readRequest(scanned.frame)).toEqual({ command: oneCCommands[name], message })

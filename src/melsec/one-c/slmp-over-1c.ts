@@ -1,0 +1,72 @@
+// Requests of the SLMP set in 1C frames, for a client.
+import type { Message } from '../../codec/codec'
+import { RequestError } from '../../errors'
+import type { FrameExplainer, Framing } from '../../link/link'
+import { deviceProblem } from '../a-compatible/device-rules'
+import { addressesOf, pointsOf } from '../a-compatible/frame-names'
+import type { SaidName } from '../a-compatible/names'
+import { type Said, SlmpOver, saidAlike } from '../a-compatible/slmp-over'
+import type { DeviceWindow } from '../a-compatible/windows'
+import type { ShownAs } from '../client-protocol'
+import { profileOver1c, windowsOver1c } from '../profiles/over-1c'
+import type { SerialProfile } from '../profiles/serial'
+import { type OneCCommandName, oneCCommands } from './commands'
+import { over1c } from './names'
+import { type OneCHead, type OneCOptions, oneCProtocol } from './protocol'
+import { oneCRules } from './rules'
+
+/** How a client speaks 1C to its PLC. */
+export interface Over1cOptions<H extends OneCHead> extends Omit<OneCOptions<H>, 'windows'> {
+  readonly profile: SerialProfile
+  readonly framing: Framing<H>
+  /** Whoever puts 1C frames into words. */
+  readonly explainer: (shownAs: ShownAs) => FrameExplainer
+}
+
+const names = { frame: '1C', instead: '3C or 4C' } as const
+
+/**
+ * The global signal and whatever else only 1C has is reached by `own`.
+ * @throws RequestError BAD_OPTION when the PLC does not take 1C, or not with these digits of X and Y
+ * @example protocol.own.exchange(oneCCommands.GW, { on: true })
+ */
+export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): SlmpOver<H> {
+  const { profile, head, explainer } = options
+  if (!profile.frames.includes('1C')) {
+    throw new RequestError('BAD_OPTION', `${profile.title} takes no 1C frame.`, 'frame')
+  }
+  const windows = windowsOver1c(profile)
+  return new SlmpOver({
+    ...names,
+    protocol: oneCProtocol({ ...options, windows, asciiXy: digitsOfXy(profile, options.asciiXy) }),
+    profile: profileOver1c(profile),
+    code: 'ascii',
+    anyHead: head,
+    said: (name, message) => saidIn1c(windows, name, message),
+    explainer,
+  })
+}
+
+function digitsOfXy({ asciiXy, title }: SerialProfile, given: OneCOptions<OneCHead>['asciiXy']): typeof given {
+  if (asciiXy === 'setting') return given
+  if (given === undefined || given === asciiXy) return asciiXy
+  const message = `${title} has no setting for the digits of X and Y: they are always ${asciiXy}. Leave asciiXy out.`
+  throw new RequestError('BAD_OPTION', message, 'asciiXy')
+}
+
+function saidIn1c(windows: readonly DeviceWindow[], name: SaidName, given: Message): Said {
+  const { message, answer } = saidAlike(names, name, given)
+  return { command: oneCCommands[commandFor(windows, over1c[name], message)], message, answer }
+}
+
+/** The command with the fewest digits that takes the devices; the last one says what is wrong where none does. */
+function commandFor(
+  windows: readonly DeviceWindow[],
+  [first, ...longer]: readonly [OneCCommandName, ...OneCCommandName[]],
+  message: Message,
+): OneCCommandName {
+  const points = pointsOf(message)
+  const takesAll = (command: OneCCommandName) =>
+    addressesOf(message).every((address) => deviceProblem(oneCRules, windows, command, address, points) === undefined)
+  return takesAll(first) ? first : (longer.find(takesAll) ?? longer.at(-1) ?? first)
+}
