@@ -81,7 +81,12 @@ export const serialEndCodes: readonly EndCodeEntry[] = [
       '在禁止RUN中写入的设置下指定了写入指令。',
       '在禁止RUN中寫入的設定下指定了寫入指令。',
     ],
-    remedy: 'enableOnlineChange',
+    remedy: [
+      'Allow writing during RUN in the settings of the PLC, or set the CPU to STOP.',
+      'PLCの設定でRUN中書込みを許可するか、CPUをSTOPにしてください。',
+      '请在PLC的设置中允许RUN中写入，或将CPU设为STOP。',
+      '請在PLC的設定中允許RUN中寫入，或將CPU設為STOP。',
+    ],
     source: FX5_SERIAL,
   },
   {
