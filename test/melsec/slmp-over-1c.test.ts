@@ -16,17 +16,12 @@ import { serialProfiles } from '../../src/melsec/profiles/serial'
 import { RMW } from '../client/plan-write-bench'
 import { framing1c, HEAD_1C, Plc1c } from './one-c-support'
 
-const noExplainer = (): never => {
-  throw new Error('nobody explains 1C frames here')
-}
-
 function over1c(id: keyof typeof serialProfiles = 'fx5-serial', asciiXy?: 'octal' | 'hexadecimal') {
   return protocolOver1c({
     profile: serialProfiles[id],
     framing: framing1c(),
     head: HEAD_1C,
     asciiXy: asciiXy ?? 'octal',
-    explainer: noExplainer,
   })
 }
 
@@ -197,13 +192,31 @@ describe('requests', () => {
   })
 })
 
+describe('a trace', () => {
+  test.each(['octal', 'hexadecimal'] as const)('puts frames into words, with X and Y in %s digits', (asciiXy) => {
+    const mc = over1c('fx5-serial', asciiXy)
+    const explainer = mc.explainer({})
+    const sent = mc.exchange(commands.readBits, { head: at('Y', 0o100), points: 2 }).write(0)
+    expect(sent.toString('latin1')).toContain(asciiXy === 'octal' ? 'Y0100' : 'Y0040')
+    expect(explainer.explain(sent, {}).title).toContain('Y100, 2 points')
+    const answer = mc.framing.response.write(HEAD_1C, 0, 0, Buffer.from('10'))
+    expect(explainer.received(answer, sent)).toMatchObject({ used: answer.length })
+    expect(explainer.received(answer.subarray(0, -1), sent)).toBeUndefined()
+    expect(
+      explainer
+        .explain(answer, { request: sent })
+        .rows.map(({ text }) => text)
+        .join(' '),
+    ).toContain('Y100')
+  })
+})
+
 describe('FX3', () => {
   test('calls special relays M8000 too, and X and Y are octal always', () => {
     const fx3 = protocolOver1c({
       profile: serialProfiles['fx3-serial'],
       framing: framing1c(),
       head: HEAD_1C,
-      explainer: noExplainer,
     })
     const body = (device: DeviceName, number: number) =>
       fx3.exchange(commands.readBits, { head: at(device, number), points: 1 }).body.toString('latin1')

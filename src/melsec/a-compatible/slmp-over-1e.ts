@@ -2,7 +2,7 @@
 import type { Message } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { ClientProtocol, ProtocolOptions } from '../client-protocol'
-import { explainer1e } from '../explain/explainer-1e'
+import { otherSetExplainer } from '../explain/other-set-explainer'
 import type { Head1e } from '../frame/frame-1e'
 import { ownStation, type Route } from '../frame/route'
 import { profileOver1e } from '../profiles/over-1e'
@@ -33,7 +33,7 @@ export function protocolOver1e({ profile, route, code, asciiXy, timer }: Protoco
     code,
     anyHead: { command: 0, pc: 0, timer: 0 },
     said: (name, message) => bits.said(name, message) ?? saidAs(name, message),
-    explainer: (shownAs) => explainer1e({ code, profile: narrowed, asciiXy, ...shownAs }),
+    explainer: (shownAs) => otherSetExplainer({ frame: '1E', code, profile: narrowed, asciiXy, ...shownAs }),
   }
   return new SlmpOver(set)
 }

@@ -5,6 +5,7 @@ import { addressesOf } from '../a-compatible/frame-names'
 import { FORM_XY_OCTAL } from '../device/codec'
 import { oneCCommands } from '../one-c/commands'
 import { codeOf, frontShape } from '../one-c/front'
+import { oneCRules } from '../one-c/rules'
 import { type ExplainSettings, noteBitUnits, noteUncertainDigits } from './body'
 import { describeFrameValue } from './frame-value'
 import type { BodyWords, MakeWords, SaidBody } from './serial-body'
@@ -63,11 +64,9 @@ function explainRequest(explainer: Explainer, settings: ExplainSettings): SaidBo
   const message = readData(explainer, settings, command, command.request)
   const used = addressesOf(message).map(({ device }) => device)
   noteUncertainDigits(explainer, settings, used)
-  if (BIT_UNITS.includes(command)) noteBitUnits(explainer, used, 'use WR, WW or WT')
+  if (oneCRules.bitUnits.some((name) => name === command.name)) noteBitUnits(explainer, used, 'use WR, WW or WT')
   return { command: command.name, title: titleOf(command, message, settings), secret: false }
 }
-
-const BIT_UNITS: readonly Command[] = [oneCCommands.BR, oneCCommands.BW, oneCCommands.BT]
 
 function titleOf(command: Command, message: Message, settings: ExplainSettings): string {
   return [`${command.title} (${command.name})`, summaryOf(command, message, settings)]

@@ -1,21 +1,32 @@
-// 1E frames for a trace. An answer has no length: it is whole when its request says so.
+// Frames of 1E and 1C for a trace. An answer of 1E has no length: it is whole when its request says so. One of 1C ends by itself.
 import type { DataCode } from '../../codec/codec'
 import type { FrameExplainer } from '../../link/link'
 import type { Profile } from '../profiles/profile'
 import { explainFrame } from './frame'
 import type { ExplainFrameOptions } from './options'
 
-export interface Explainer1eOptions {
+export interface OtherSetExplainerOptions {
+  readonly frame: '1E' | '1C'
   readonly code: DataCode
   readonly profile: Profile
   readonly xyRadix?: 8 | 16
   readonly wRadix?: 10 | 16
   readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
+  /** Bytes of the answer at the front, where it ends by itself; `undefined` when it is not whole yet. */
+  readonly answerIn?: (bytes: Buffer) => number | undefined
 }
 
-export function explainer1e({ code, profile, xyRadix, wRadix, asciiXy }: Explainer1eOptions): FrameExplainer {
+export function otherSetExplainer({
+  frame,
+  code,
+  profile,
+  xyRadix,
+  wRadix,
+  asciiXy,
+  answerIn,
+}: OtherSetExplainerOptions): FrameExplainer {
   const options: ExplainFrameOptions = {
-    frame: '1E',
+    frame,
     code,
     profile,
     ...(xyRadix === undefined ? {} : { xyRadix }),
@@ -27,9 +38,13 @@ export function explainer1e({ code, profile, xyRadix, wRadix, asciiXy }: Explain
     explainFrame(bytes, request === undefined ? options : { ...options, request })
   return {
     hasSecretAnswers: false,
-    endsWithRequest: true,
+    endsWithRequest: answerIn === undefined,
     sent: () => ({ serial: 0, isRegistration: false, isSecret: false }),
     received(bytes, request) {
+      if (answerIn !== undefined) {
+        const used = answerIn(bytes)
+        return used === undefined ? undefined : { used, serial: 0 }
+      }
       const isWhole = explain(bytes, request === undefined ? {} : { request }).fault === undefined
       return isWhole ? { used: bytes.length, serial: 0 } : undefined
     },

@@ -1,13 +1,12 @@
 // Requests of the SLMP set in 1C frames, for a client.
 import type { Message } from '../../codec/codec'
 import { RequestError } from '../../errors'
-import type { FrameExplainer, Framing } from '../../link/link'
 import { deviceProblem } from '../a-compatible/device-rules'
 import { addressesOf, pointsOf } from '../a-compatible/frame-names'
 import type { SaidName } from '../a-compatible/names'
 import { type Said, SlmpOver, saidAlike } from '../a-compatible/slmp-over'
 import type { DeviceWindow } from '../a-compatible/windows'
-import type { ShownAs } from '../client-protocol'
+import { otherSetExplainer } from '../explain/other-set-explainer'
 import { profileOver1c, windowsOver1c } from '../profiles/over-1c'
 import type { SerialProfile } from '../profiles/serial'
 import { type OneCCommandName, oneCCommands } from './commands'
@@ -18,9 +17,6 @@ import { oneCRules } from './rules'
 /** How a client speaks 1C to its PLC. */
 export interface Over1cOptions<H extends OneCHead> extends Omit<OneCOptions<H>, 'windows'> {
   readonly profile: SerialProfile
-  readonly framing: Framing<H>
-  /** Whoever puts 1C frames into words. */
-  readonly explainer: (shownAs: ShownAs) => FrameExplainer
 }
 
 const names = { frame: '1C', instead: '3C or 4C' } as const
@@ -31,19 +27,29 @@ const names = { frame: '1C', instead: '3C or 4C' } as const
  * @example protocol.own.exchange(oneCCommands.GW, { on: true })
  */
 export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): SlmpOver<H> {
-  const { profile, head, explainer } = options
+  const { profile, head, framing } = options
   if (!profile.frames.includes('1C')) {
     throw new RequestError('BAD_OPTION', `${profile.title} takes no 1C frame.`, 'frame')
   }
   const windows = windowsOver1c(profile)
+  const asciiXy = digitsOfXy(profile, options.asciiXy)
+  const narrowed = profileOver1c(profile)
   return new SlmpOver({
     ...names,
-    protocol: oneCProtocol({ ...options, windows, asciiXy: digitsOfXy(profile, options.asciiXy) }),
-    profile: profileOver1c(profile),
+    protocol: oneCProtocol({ ...options, windows, asciiXy }),
+    profile: narrowed,
     code: 'ascii',
     anyHead: head,
     said: (name, message) => saidIn1c(windows, name, message),
-    explainer,
+    explainer: (shownAs) =>
+      otherSetExplainer({
+        frame: '1C',
+        code: 'ascii',
+        profile: narrowed,
+        asciiXy,
+        answerIn: (bytes) => framing.response.scan(bytes, () => undefined)?.used,
+        ...shownAs,
+      }),
   })
 }
 

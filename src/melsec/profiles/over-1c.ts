@@ -69,6 +69,8 @@ export function profileOver1c(serial: SerialProfile): Profile {
       source,
     }),
     title: `${serial.title} in a 1C frame`,
+    // Which digits they are, the serial profile says.
+    asciiXy: 'setting',
     codes: ['ascii'],
     code: 'ascii',
     refusals,
