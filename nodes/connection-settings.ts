@@ -1,7 +1,7 @@
 // The settings of a connection as a flow stores them, and the client's options made of them.
 import type { Node, NodeAPI } from 'node-red'
 import type { MelsecClientOptions, ProfileId, Route, ValueFormat } from '../src/index'
-import { encodings, profileIds } from '../src/index'
+import { encodings, frameNames, profileIds } from '../src/index'
 import { type NodeFailure, refusal } from './failure'
 import type { Texts } from './texts'
 import { withVariables } from './typed-input'
@@ -17,7 +17,7 @@ export interface ConnectionSettings {
   readonly localAddress: string
   readonly localPort: string
   readonly profile: string
-  /** `3E`, `4E`, `ext`, `1E` or `''`. */
+  /** One of `frameNames` or `''`. */
   readonly frame: string
   /** `binary` or `ascii`. */
   readonly code: string
@@ -161,7 +161,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       transport: choice(settings, 'transport', ['tcp', 'udp'], texts),
       localAddress: settings.localAddress === '' ? undefined : settings.localAddress,
       localPort: number('localPort'),
-      frame: choice(settings, 'frame', ['3E', '4E', 'ext', '1E'], texts),
+      frame: choice(settings, 'frame', frameNames, texts),
       code: choice(settings, 'code', ['binary', 'ascii'], texts),
       asciiXy: choice(settings, 'asciiXy', ['octal', 'hexadecimal'], texts),
       asciiZr: choice(settings, 'asciiZr', ['decimal', 'hexadecimal'], texts),

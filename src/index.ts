@@ -125,6 +125,7 @@ export type { RemedyName } from './melsec/end-codes/remedies'
 export type { Texts } from './melsec/end-codes/texts'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
 export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file/time'
+export { type FrameName, frameNames } from './melsec/frame/frames'
 export { type ModuleIoNumber, moduleIoNumbers, type Route } from './melsec/frame/route'
 export { type Model, modelCodes, modelOf, type Series } from './melsec/model-code'
 export { profiles, resolveProfile } from './melsec/profiles/info'
@@ -132,7 +133,6 @@ export {
   type Connections,
   type Drive,
   type FileInfo,
-  type FrameName,
   type InFlight,
   type Lack,
   type LastIndex,

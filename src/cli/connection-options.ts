@@ -4,6 +4,7 @@ import {
   createMelsecClient,
   encodings,
   type FrameName,
+  frameNames,
   type MelsecClient,
   type MelsecClientOptions,
   moduleIoNumbers,
@@ -11,7 +12,6 @@ import {
   PlcError,
   type ProfileId,
   profileIds,
-  profiles,
   RequestError,
   type ValueFormat,
 } from '../index'
@@ -58,8 +58,6 @@ const PROBES = ['auto', 'typeName', 'read', 'none'] as const satisfies readonly 
   MelsecClientOptions['probe']
 >[]
 const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullable<ValueFormat['wordOrder']>[]
-/** Every frame that any family has. */
-const FRAMES: readonly FrameName[] = [...new Set(Object.values(profiles).flatMap(({ frames }) => frames))].sort()
 
 /** A whole number of an option. */
 export function whole(min: number, max: number): (text: string) => number {
@@ -114,7 +112,7 @@ export const wRadixOption = () =>
     "W is written in decimal (10, as SLMP inverters are said to) or hexadecimal (16); default: the profile's",
   ).argParser(wRadix)
 
-export const frameOption = (description: string) => choice('--frame <name>', description, FRAMES)
+export const frameOption = (description: string) => choice('--frame <name>', description, frameNames)
 
 /** Adds the options that say which PLC. */
 export function addConnectionOptions(command: Command): Command {

@@ -1,5 +1,5 @@
 import { explainFrame, explainJwFrame, formatExplanation } from '../entry/codec'
-import { type DataCode, type ProfileId, RequestError } from '../index'
+import { type DataCode, frameNames, type ProfileId, RequestError } from '../index'
 import { bytesOfText, pastedBytes } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addDigitOptions, choice, jsonOption, profileOption, wRadixOption } from './connection-options'
@@ -33,10 +33,7 @@ interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wR
   readonly json?: boolean
 }
 
-const FRAMES = ['3E', '4E', 'ext', '1E', '1C', '3C', '4C', 'JW'] as const satisfies readonly (
-  | ExplainOptions['frame']
-  | 'JW'
-)[]
+const FRAMES = [...frameNames, '1C', '3C', '4C', 'JW'] as const satisfies readonly (ExplainOptions['frame'] | 'JW')[]
 const FORMATS = ['1', '4', '5'] as const
 const formats = { '1': 1, '4': 4, '5': 5 } as const satisfies Record<(typeof FORMATS)[number], number>
 

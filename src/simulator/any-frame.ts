@@ -3,7 +3,7 @@ import { type DataCode, failAt, uintAt } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { BodyLength, Framing, RequestFrame, Scanned } from '../link/link'
 import { frame1e, type Head1e } from '../melsec/frame/frame-1e'
-import { type FrameName, frameFacts, type SlmpFrameName } from '../melsec/frame/frames'
+import { type FrameName, frameFacts, type SlmpFrameName, slmpFrameNames } from '../melsec/frame/frames'
 import { type SlmpFraming, type SlmpHead, slmpFraming } from '../melsec/frame/slmp-frame'
 
 /** A head that says in which frame it came, so that the answer goes out in the same one. */
@@ -75,12 +75,12 @@ export function anyFrame(
 
 /** The framing of each frame that the code has. */
 function slmpFramings(code: DataCode): (frame: SlmpFrameName) => SlmpFraming {
-  const framings = { '3E': slmpFraming('3E', code), '4E': slmpFraming('4E', code) }
-  const extension = frameFacts.ext.codes.includes(code) ? slmpFraming('ext', code) : undefined
+  const names = slmpFrameNames.filter((name) => frameFacts[name].codes.includes(code))
+  const framings = new Map(names.map((name) => [name, slmpFraming(name, code)] as const))
   return (frame) => {
-    if (frame !== 'ext') return framings[frame]
-    if (extension === undefined) throw new TypeError(`a port in ${code} code takes no station extension frame`)
-    return extension
+    const framing = framings.get(frame)
+    if (framing === undefined) throw new TypeError(`a port in ${code} code takes no ${frameFacts[frame].title} frame`)
+    return framing
   }
 }
 

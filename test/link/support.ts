@@ -8,13 +8,13 @@ import {
   type SessionEvent,
   type SessionOptions,
 } from '../../src/link/link'
-import { frameFacts } from '../../src/melsec/frame/frames'
+import { frameFacts, slmpFrameNames } from '../../src/melsec/frame/frames'
 import { ownStation } from '../../src/melsec/frame/route'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { questionOf } from '../support/question'
 
 /** Every frame of the SLMP set in every data code it has. */
-export const slmpFrames = (['3E', '4E', 'ext'] as const).flatMap((frame) =>
+export const slmpFrames = slmpFrameNames.flatMap((frame) =>
   frameFacts[frame].codes.map((code) => ({
     title: `${frame} ${code}`,
     frame,

@@ -11,7 +11,7 @@ import type { Command } from '../../src/melsec/commands/command'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { explainFrame, type FrameExplanation, formatExplanation } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
-import { frameFacts, type SlmpFrameName } from '../../src/melsec/frame/frames'
+import { frameFacts, type SlmpFrameName, slmpFrameNames } from '../../src/melsec/frame/frames'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
@@ -133,7 +133,7 @@ function answerBody(frame: SlmpFrameName, vector: (typeof responseVectors)[numbe
   return Buffer.concat([request.subarray(18, 22), RESERVED, bytesOf(vector)])
 }
 
-describe.each(['3E', '4E', 'ext'] as const)('the data of the manuals in a %s frame', (frame) => {
+describe.each(slmpFrameNames)('the data of the manuals in a %s frame', (frame) => {
   test.each(carried(frame, requestVectors))('$id', (vector) => {
     const { request } = slmpFraming(frame, vector.code)
     const explanation = explained(request.write(head, 0x1234, requestBody(frame, bytesOf(vector))), octal(vector))
@@ -416,7 +416,7 @@ function mutated(frame: Buffer): fc.Arbitrary<Buffer> {
 }
 
 describe('mutated frames', () => {
-  test.each(['3E', '4E', 'ext'] as const)(
+  test.each(slmpFrameNames)(
     '%s requests: never an exception, and a fault exactly where the PLC side finds one',
     (frame) => {
       const frames = carried(frame, requestVectors).map((vector) => ({

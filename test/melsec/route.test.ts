@@ -1,6 +1,6 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
-import type { FrameName } from '../../src/melsec/frame/frames'
+import { type FrameName, frameNames } from '../../src/melsec/frame/frames'
 import {
   checkRouteOf,
   completeRoute,
@@ -122,9 +122,8 @@ describe('a route', () => {
 })
 
 describe('a frame', () => {
-  const frames: readonly FrameName[] = ['3E', '4E', 'ext', '1E']
   const takers = (part: Partial<Route>) =>
-    frames.filter((frame) => {
+    frameNames.filter((frame) => {
       try {
         checkRouteOf(frame, completeRoute(part))
         return true
@@ -135,8 +134,8 @@ describe('a frame', () => {
     })
 
   test('takes the routes it can say without two meanings', () => {
-    expect(takers({})).toEqual(frames)
-    expect(takers({ network: 1, station: 120 })).toEqual(frames)
+    expect(takers({})).toEqual(frameNames)
+    expect(takers({ network: 1, station: 120 })).toEqual(frameNames)
     expect(takers({ network: 1, station: 125 })).toEqual(['3E', '4E', '1E'])
     expect(takers({ network: 1, station: 121 })).toEqual(['ext'])
     expect(takers({ network: 1, station: 125, extensionStation: 0 })).toEqual(['ext'])

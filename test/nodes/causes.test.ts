@@ -4,7 +4,7 @@ import { causesIn, messageWith, withoutCauses } from '../../nodes/causes'
 import type { Texts } from '../../nodes/texts'
 import * as failure from '../../src/client/connection/failure'
 import { explainSilence, type LinkSettings } from '../../src/client/melsec/diagnosis'
-import type { FrameName } from '../../src/index'
+import { frameNames } from '../../src/index'
 import { nodesOf, parseTypeScript, readText, textOf } from '../support/syntax'
 
 type Catalogue = { readonly language: string; readonly [part: string]: unknown }
@@ -24,11 +24,10 @@ function textsIn(language: string): Texts {
   }
 }
 
-const frames = ['3E', '4E', 'ext', '1E'] as const satisfies readonly FrameName[]
 const own = { network: 0, station: 255, moduleIo: 0x3ff, multidrop: 0 }
 
 function silences(): string[] {
-  const settings = frames.flatMap((frame) =>
+  const settings = frameNames.flatMap((frame) =>
     (['binary', 'ascii'] as const).flatMap((code) =>
       [own, { ...own, network: 1, station: 3 }].flatMap((route) =>
         [undefined, 5002].map(

@@ -5,10 +5,25 @@ import { failureOf, NodeFailure } from '../../nodes/failure'
 import { currentVersion, type Migration, migrated } from '../../nodes/migration'
 import { writeFailure } from '../../nodes/write-result'
 import { entriesByName, isSame, typedNumber } from '../../nodes/write-values'
-import { ClosedError, createMelsecClient, EndCodeError, RequestError, TimeoutError } from '../../src/index'
+import {
+  ClosedError,
+  createMelsecClient,
+  EndCodeError,
+  encodings,
+  frameNames,
+  RequestError,
+  TimeoutError,
+} from '../../src/index'
 import { readText } from '../support/syntax'
 
 const texts = (key: string, values: object = {}): string => `${key} ${JSON.stringify(values)}`
+/** The values of a list of the connection's dialog, as its html has them. */
+function offered(field: string): (string | undefined)[] {
+  const html = readText('nodes/melsec-jw-connection.html')
+  const [, list = ''] = new RegExp(`<select id="node-config-input-${field}">(.*?)</select>`, 's').exec(html) ?? []
+  return [...list.matchAll(/<option value="([^"]*)"/g)].map(([, value]) => value)
+}
+
 const resolve = (text: string): string => text
 
 describe('migrations', () => {
@@ -62,6 +77,13 @@ describe('settings of a connection', () => {
     const { profile, ...settled } = createMelsecClient(options).options
     expect(profile).toBe('iq-r')
     expect(settled).toMatchObject({ host: 'plc', port: 5007, allowWrites: false, allowControl: false })
+  })
+
+  test.each([
+    ['frame', ['', ...frameNames]],
+    ['encoding', encodings],
+  ])('%s: the dialog offers what the client takes', (field, values) => {
+    expect(offered(field).sort()).toEqual([...values].sort())
   })
 
   test('a station above 120 is one of the station extension frame', () => {

@@ -5,7 +5,7 @@ import { RequestError } from '../../errors'
 import type { Command } from '../commands/command'
 import { knownCommands } from '../commands/known'
 import { bodies } from '../frame/body'
-import { frameFacts, type SlmpFrameName } from '../frame/frames'
+import { frameFacts, type SlmpFrameName, slmpFrameNames } from '../frame/frames'
 import { isConnectedStation, ownStation } from '../frame/route'
 import { checkFormat, isSerialFrame, type SerialFrameName } from '../frame/serial-frames'
 import { slmpFraming } from '../frame/slmp-frame'
@@ -80,7 +80,7 @@ interface Subheader {
   readonly bytes: Buffer
 }
 
-const SUBHEADERS: readonly Subheader[] = (['3E', '4E', 'ext'] as const).flatMap((frame) =>
+const SUBHEADERS: readonly Subheader[] = slmpFrameNames.flatMap((frame) =>
   frameFacts[frame].codes.flatMap((code) => {
     const { request, response } = slmpFraming(frame, code)
     const head = { ...ownStation, timer: 0 }

@@ -1,6 +1,16 @@
 // The frames of MELSEC PLCs over Ethernet: what is true of each, whatever family speaks it.
 import type { DataCode } from '../../codec/codec'
 
+/** Frames of the SLMP set. */
+export const slmpFrameNames = ['3E', '4E', 'ext'] as const
+/** Frames of the SLMP set. */
+export type SlmpFrameName = (typeof slmpFrameNames)[number]
+
+/** The frames that options take, by name; `ext` is the station extension frame. */
+export const frameNames = [...slmpFrameNames, '1E'] as const
+/** Name of a frame; `ext`: the station extension frame. */
+export type FrameName = (typeof frameNames)[number]
+
 export interface FrameFacts {
   /** For people: the manual's word without "frame". */
   readonly title: string
@@ -34,9 +44,4 @@ export const frameFacts = {
     knownTo: 'only an RJ71GN11-T2 knows and relays it',
   },
   '1E': { title: '1E', codes: BOTH, serial: false, instead: '3E' },
-} as const satisfies Readonly<Record<string, FrameFacts>>
-
-/** Name of a frame; `ext`: the station extension frame. */
-export type FrameName = keyof typeof frameFacts
-/** Frames of the SLMP set. */
-export type SlmpFrameName = Exclude<FrameName, '1E'>
+} as const satisfies Readonly<Record<FrameName, FrameFacts>>

@@ -5,7 +5,7 @@ import { RequestError } from '../../errors'
 import type { Framing, Head, RequestFrame, ResponseFrame, Scanned } from '../../link/link'
 
 import { type BodyLayout, bodies } from './body'
-import { frameFacts, type SlmpFrameName } from './frames'
+import { frameFacts, type SlmpFrameName, slmpFrameNames } from './frames'
 import type { Route } from './route'
 
 /** What stands in front of the body: the route, and what a request says beside. */
@@ -202,7 +202,7 @@ function key(subheader: number, ascii: boolean): number {
 }
 
 const FIXED = new Map<number, Buffer>()
-for (const frame of ['3E', '4E', 'ext'] as const) {
+for (const frame of slmpFrameNames) {
   const { serial, codes } = frameFacts[frame]
   for (const subheader of Object.values(SUBHEADER[frame])) {
     for (const ascii of codes.map((code) => code === 'ascii')) {
