@@ -13,6 +13,8 @@ import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
 import { ownStation } from '../../src/melsec/frame/route'
 import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
+import { oneCCommands } from '../../src/melsec/one-c/commands'
+import { oneCProtocol } from '../../src/melsec/one-c/protocol'
 import type { FrameName, ProfileId } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
@@ -104,6 +106,16 @@ function aCompatible(code: DataCode, family: 'iq-f' | 'fx3'): FrameKind {
   })
 }
 
+function oneC(format: 1 | 4, sumCheck: boolean): FrameKind {
+  return kind(`1C format ${format}${sumCheck ? '' : ' without sum check'}`, () => {
+    const framing = serialFraming({ frame: '1C', format, sumCheck })
+    const protocol = oneCProtocol({ framing, head: { station: 0, pc: 0xff }, asciiXy: 'octal' })
+    return headed(protocol, oneCCommands, 'ascii', {
+      explain: explaining({ frame: '1C', format, sumCheck, profile: 'iq-f', asciiXy: 'octal' }),
+    })
+  })
+}
+
 function jw(header: 'none' | 'zero40'): FrameKind {
   return kind(`JW, header ${header}`, () => {
     const explain = (bytes: Buffer, request: Buffer | undefined) => {
@@ -152,6 +164,7 @@ export const frameKinds: readonly FrameKind[] = [
   ...names.flatMap(kindsOf),
   format5(true),
   format5(false),
+  ...([1, 4] as const).flatMap((format) => [oneC(format, true), oneC(format, false)]),
   jw('none'),
   jw('zero40'),
 ]

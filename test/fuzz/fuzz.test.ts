@@ -6,6 +6,7 @@ import { describe, expect, test } from '@jest/globals'
 import { jwCommands } from '../../src/jw/commands'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { commands } from '../../src/melsec/commands/commands'
+import { oneCCommands } from '../../src/melsec/one-c/commands'
 import { frameKinds } from './frame-kinds'
 import { Random } from './random'
 import { type FuzzResult, fuzz, type Tally } from './run'
@@ -33,9 +34,11 @@ describe.each(frameKinds)('$name', (kind) => {
 
 /** Every command of the set, so that none is left out because no message of it could be made. */
 function namesOf(kind: string): string[] {
-  const list = kind.startsWith('1E') ? aCompatibleCommands : kind.startsWith('JW') ? jwCommands : commands
-  return Object.keys(list).sort()
+  return Object.keys(SETS[kind.slice(0, 2)] ?? commands).sort()
 }
+
+/** By what the name of the kind begins with, where it is not the SLMP set. */
+const SETS: Readonly<Record<string, object>> = { '1E': aCompatibleCommands, '1C': oneCCommands, JW: jwCommands }
 
 function report({ kind, grown, requests, answers }: FuzzResult): string {
   const of = (

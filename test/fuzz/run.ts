@@ -5,7 +5,7 @@
 
 import { setFlagsFromString } from 'node:v8'
 import { runInNewContext } from 'node:vm'
-import { EndCodeError, ProtocolError } from '../../src/errors'
+import { EndCodeError, ProtocolError, RequestError } from '../../src/errors'
 import type { Head } from '../../src/link/link'
 import { type Framing, Responder, Session } from '../../src/link/link'
 import { createPlcSimulator, type PlcSimulator } from '../../src/simulator/server'
@@ -143,7 +143,7 @@ abstract class Direction<H extends Head> {
     if (how === 2) return damage.load(frame(body)).bytes
     if (how < 8) return damage.load(frame(body)).times(frame(other)).bytes
     const damaged = damage.load(body).times(other).bytes
-    return damage.load(frame(damaged.subarray(0, 0xfff0))).bytes
+    return damage.load(framed(frame, damaged.subarray(0, 0xfff0))).bytes
   }
 
   /** Copies, because a session keeps its chunks; cut anywhere. */
@@ -355,6 +355,16 @@ class Plc<H extends Head> {
       },
     })
     if (this.#transport === undefined) throw new Error('the simulated PLC does not come back')
+  }
+}
+
+/** Serial frames in ASCII code carry characters only: there each byte becomes one. */
+function framed(frame: (body: Uint8Array) => Buffer, body: Uint8Array): Buffer {
+  try {
+    return frame(body)
+  } catch (error) {
+    if (!(error instanceof RequestError)) throw error
+    return frame(body.map((byte) => 0x20 + (byte % 0x5f)))
   }
 }
 
