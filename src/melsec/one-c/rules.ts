@@ -35,6 +35,8 @@ export const oneCRules: DeviceRules<OneCCommandName> = {
   bitUnits: ['BR', 'BW', 'BT'],
   // 44.4: eight, not sixteen as in 1E
   headMultiple: 8,
+  // 44.4 (so background, FX series user’s manual, data communication edition, computer link 7.2): one point of CN200 to
+  // CN255 is two words; nobody prints which of them stands first.
   pairs: [],
   noPairs:
     'is a counter of 32 bits: the manual does not print in which order its two words stand in a 1C frame. Use a 3C or 4C frame.',
