@@ -99,7 +99,7 @@ export const oneCCommands = declare({
   RR: { title: 'Remote RUN', code: 0x5252, effect: 'control', manual: remote, request: {}, response: {} },
   RS: { title: 'Remote STOP', code: 0x5253, effect: 'control', manual: remote, request: {}, response: {} },
   PC: {
-    title: 'CPU model read',
+    title: 'Read CPU model',
     code: 0x5043,
     effect: 'read',
     manual: remote,

@@ -39,6 +39,6 @@ export const oneCRules: DeviceRules<OneCCommandName> = {
   // CN255 is two words; nobody prints which of them stands first.
   pairs: [],
   noPairs:
-    'is a counter of 32 bits: the manual does not print in which order its two words stand in a 1C frame. Use a 3C or 4C frame.',
+    'is a counter of 32 bits: the manual does not print in which order its two words stand in a 1C frame. Use a 3C or 4C frame if the PLC takes it.',
   lastNumbers: { WR: fourDigits, WW: fourDigits, WT: fourDigits },
 }

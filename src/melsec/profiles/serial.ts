@@ -19,13 +19,12 @@ export interface SerialProfile {
   readonly asciiXy: 'setting' | 'octal'
   /** What requests may say: in 3C and 4C as it is, in 1C less (over-1c.ts). Its own frames are not those of the line. */
   readonly set: Profile
-  /** Last station number; stations on one line. */
-  readonly lastStation: number
-  readonly stations: number
+  /** Where requests can go, as `serialRoute` takes it. */
+  readonly reach: 'fx5' | 'c24'
   /** Which channels a CPU has and what they tell. Absent where it is in no manual at hand. */
   readonly channels?: SerialChannels
   readonly notes: readonly string[]
-  readonly sources: Readonly<Record<'frames' | 'asciiXy' | 'stations', string>>
+  readonly sources: Readonly<Record<'frames' | 'asciiXy' | 'reach', string>>
 }
 
 const manual = 'FX5 communication manual'
@@ -37,8 +36,7 @@ const fx5Serial: SerialProfile = {
   frames: ['4C', '3C', '1C'],
   asciiXy: 'setting',
   set: fx5Over3c,
-  lastStation: 15,
-  stations: 16,
+  reach: 'fx5',
   channels: fx5Channels,
   notes: [
     'The serial port needs MC protocol as protocol format in GX Works3; speed, parity, sum check, station and message format are set there, too.',
@@ -49,7 +47,7 @@ const fx5Serial: SerialProfile = {
   sources: {
     frames: `${manual} 18.4: 4C in formats 1, 4 and 5, 3C and 1C in formats 1 and 4`,
     asciiXy: `${manual} 43.2 and 44.4: message formats "Format 1 (X,Y OCT)" and the like`,
-    stations: `${manual} 18.4 and 42.5`,
+    reach: `${manual} 42.5: all but the station number is fixed`,
   },
 }
 
@@ -60,8 +58,7 @@ const fx3Serial: SerialProfile = {
   frames: ['1C'],
   asciiXy: 'octal',
   set: fx3,
-  lastStation: 15,
-  stations: 16,
+  reach: 'fx5',
   notes: [
     'Computer link is set up in GX Works2 (PLC system (2)) or in D8120: dedicated protocol, format 1 or 4.',
     'Special relays and registers M8000 to M8511 and D8000 to D8511 are also called SM8000 and SD8000 here, because the iQ-F calls them so.',
@@ -70,7 +67,8 @@ const fx3Serial: SerialProfile = {
     frames: `${manual} 44: the 1C frame is compatible with computer link of FX3, and has the commands of this chapter only`,
     asciiXy:
       'background: FX series user’s manual, data communication edition, computer link 7.2: X040 to X077 are thirty-two inputs',
-    stations: 'background: FX series user’s manual, data communication edition, computer link: station numbers 0 to 15',
+    reach:
+      'background: FX series user’s manual, data communication edition, computer link: stations 0 to 15, PC number FF',
   },
 }
 
