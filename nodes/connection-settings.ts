@@ -1,7 +1,7 @@
 // The settings of a connection as a flow stores them, and the client's options made of them.
 import type { Node, NodeAPI } from 'node-red'
 import type { MelsecClientOptions, ProfileId, Route, ValueFormat } from '../src/index'
-import { encodings, frameNames, profileIds } from '../src/index'
+import { encodings, frameNames, probeKinds, profileIds, transportNames } from '../src/index'
 import { type NodeFailure, refusal } from './failure'
 import type { Texts } from './texts'
 import { withVariables } from './typed-input'
@@ -158,7 +158,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
   const number = (field: TextField) => wholeNumber(settings, field, texts)
   return {
     ...present({
-      transport: choice(settings, 'transport', ['tcp', 'udp'], texts),
+      transport: choice(settings, 'transport', transportNames, texts),
       localAddress: settings.localAddress === '' ? undefined : settings.localAddress,
       localPort: number('localPort'),
       frame: choice(settings, 'frame', frameNames, texts),
@@ -170,7 +170,7 @@ export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecC
       wRadix: wRadixOf(settings, texts),
       monitoringTimer: number('monitoringTimer'),
       timeout: number('timeout'),
-      probe: choice(settings, 'probe', ['auto', 'typeName', 'read', 'none'], texts),
+      probe: choice(settings, 'probe', probeKinds, texts),
       inFlight: number('inFlight'),
       queueLimit: number('queueLimit'),
       gap: number('gap'),

@@ -62,7 +62,7 @@ export type {
 export { createMelsecClient } from './client/melsec/melsec-client'
 export type { RequestExplanation } from './client/melsec/named-request'
 export type { MelsecClientOptions } from './client/melsec/options'
-export type { ProbeKind } from './client/melsec/probes'
+export { type ProbeKind, probeKinds } from './client/melsec/probes'
 export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
@@ -146,6 +146,7 @@ export {
   type RemoteFacts,
   type StatusRegister,
   type TransportName,
+  transportNames,
 } from './melsec/profiles/profile'
 export type { ExchangeOptions } from './melsec/protocol'
 export { isPortLocked } from './melsec/remote-password'

@@ -11,6 +11,7 @@ import {
   type OpenTransport,
   PlcError,
   type ProfileId,
+  probeKinds,
   profileIds,
   RequestError,
   type ValueFormat,
@@ -54,9 +55,6 @@ export interface FormatOptions {
   readonly encoding?: NonNullable<ValueFormat['encoding']>
 }
 
-const PROBES = ['auto', 'typeName', 'read', 'none'] as const satisfies readonly NonNullable<
-  MelsecClientOptions['probe']
->[]
 const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullable<ValueFormat['wordOrder']>[]
 
 /** A whole number of an option. */
@@ -174,7 +172,7 @@ export function addConnectionOptions(command: Command): Command {
         whole(1, 65535),
       ),
     )
-    .addOption(choice('--probe <name>', 'request that proves the connection (default: auto)', PROBES))
+    .addOption(choice('--probe <name>', 'request that proves the connection (default: auto)', probeKinds))
     .addOption(new Option('--timeout <ms>', 'time for an answer').default(3000).argParser(whole(1, 3_600_000)))
     .addOption(
       new Option('--connect-timeout <ms>', 'time for the connection').default(5000).argParser(whole(1, 3_600_000)),

@@ -11,8 +11,10 @@ import {
   EndCodeError,
   encodings,
   frameNames,
+  probeKinds,
   RequestError,
   TimeoutError,
+  transportNames,
 } from '../../src/index'
 import { readText } from '../support/syntax'
 
@@ -81,6 +83,8 @@ describe('settings of a connection', () => {
 
   test.each([
     ['frame', ['', ...frameNames]],
+    ['transport', transportNames],
+    ['probe', probeKinds],
     ['encoding', encodings],
   ])('%s: the dialog offers what the client takes', (field, values) => {
     expect(offered(field).sort()).toEqual([...values].sort())

@@ -33,7 +33,7 @@ export function checkOnDemand(
     const message = `The ${frameFacts[frame].title} frame has no On-demand: use 3E or 4E, if the PLC has them.`
     throw new RequestError('UNSUPPORTED', message, 'frame')
   }
-  if (transport === 'tcp' || (localPort ?? 0) > 0 || openTransport !== undefined) return
+  if (transport !== 'udp' || (localPort ?? 0) > 0 || openTransport !== undefined) return
   const message =
     'On-demand over UDP needs localPort: the PLC sends to the port in its open settings, and without localPort this client ' +
     'has another one each time (with the 3E frame after every answer). Set it as in the PLC, or use TCP.'

@@ -14,6 +14,7 @@ import {
   type ProfileInfo,
   type ProfileOverrides,
   type TransportName,
+  transportNames,
 } from '../../melsec/profiles/profile'
 import { resolveProfile } from '../../melsec/profiles/profiles'
 import { type Clock, realClock } from '../../transport/clock'
@@ -188,7 +189,7 @@ export function settle(options: MelsecClientOptions): Settings {
   oneOf('asciiZr', options.asciiZr, [undefined, 'decimal', 'hexadecimal'])
   oneOf('asciiWordOrder', options.asciiWordOrder, [undefined, 'low-first', 'high-first'])
   const profile = profileOf(options)
-  const transport = oneOf('transport', options.transport ?? 'tcp', ['tcp', 'udp'])
+  const transport = oneOf('transport', options.transport ?? 'tcp', transportNames)
   const frame = frameOf(profile, options.frame)
   const code = codeOf(frame, options.code ?? profile.code)
   if (options.openTransport === undefined) checkPeer(options)
@@ -261,7 +262,7 @@ function checkPasswordPort(
   transport: TransportName,
   frame: FrameName,
 ): void {
-  if (password === undefined || transport === 'tcp' || frameFacts[frame].serial) return
+  if (password === undefined || transport !== 'udp' || frameFacts[frame].serial) return
   if ((localPort ?? 0) > 0 || openTransport !== undefined) return
   const message =
     'A remote password over UDP needs localPort with the 3E frame: the PLC unlocks one peer, and without it every request ' +
@@ -353,7 +354,7 @@ function provable(
   frame: FrameName,
   route: Route,
 ): Route {
-  if (transport === 'tcp' || localPort === 0 || frameFacts[frame].serial) return route
+  if (transport !== 'udp' || localPort === 0 || frameFacts[frame].serial) return route
   if (isConnectedStation(route) && route.moduleIo === ownStation.moduleIo && route.multidrop === ownStation.multidrop) {
     return route
   }

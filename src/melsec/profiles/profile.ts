@@ -30,7 +30,9 @@ export const profileIds = [
 export type ProfileId = (typeof profileIds)[number]
 export type { FrameName } from '../frame/frames'
 /** What a port is reached by. */
-export type TransportName = 'tcp' | 'udp'
+export const transportNames = ['tcp', 'udp'] as const
+/** What a port is reached by. */
+export type TransportName = (typeof transportNames)[number]
 
 /** A command this family does not have, or not on each of its ports. */
 export interface Lack {
@@ -440,6 +442,6 @@ export function inFlightBound(profile: Profile, transport: TransportName, frame:
     )
   }
   if (frame !== '4E') return 1
-  if (transport === 'tcp') return profile.inFlight.tcp
+  if (transport !== 'udp') return profile.inFlight.tcp
   return 1 + Math.floor(profile.inFlight.udpBuffer / connections)
 }
