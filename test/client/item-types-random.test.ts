@@ -68,6 +68,8 @@ const LABELS = [
     'label:D100',
     'LABEL:M1',
     'label:X[2]',
+    '\tlabel:X[2]',
+    '\u3000LABEL:Speed[1]',
   ],
 ]
 

@@ -156,5 +156,37 @@ type TypeOfRest<Unit extends keyof DefaultTypes, T extends string> = T extends '
       : never
     : never
 
-/** Spaces around say nothing. */
-type Trim<T extends string> = T extends ` ${infer Rest}` ? Trim<Rest> : T extends `${infer Rest} ` ? Trim<Rest> : T
+/** Spaces around say nothing: those that input methods and spreadsheets leave, too. */
+type Trim<T extends string> = T extends `${Space}${infer Rest}`
+  ? Trim<Rest>
+  : T extends `${infer Rest}${Space}`
+    ? Trim<Rest>
+    : T
+
+/** What JavaScript trims. */
+type Space =
+  | ' '
+  | '\t'
+  | '\n'
+  | '\v'
+  | '\f'
+  | '\r'
+  | '\u00a0'
+  | '\u1680'
+  | '\u2000'
+  | '\u2001'
+  | '\u2002'
+  | '\u2003'
+  | '\u2004'
+  | '\u2005'
+  | '\u2006'
+  | '\u2007'
+  | '\u2008'
+  | '\u2009'
+  | '\u200a'
+  | '\u2028'
+  | '\u2029'
+  | '\u202f'
+  | '\u205f'
+  | '\u3000'
+  | '\ufeff'
