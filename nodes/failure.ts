@@ -159,7 +159,8 @@ function refusedText(error: EndCodeError, { meaning, remedy }: Explanation, text
   const { command } = error
   if (languageOf(texts) === 'en-US' || meaning === undefined || command === undefined) return error.message
   const title = titleOf(error, texts) ?? command
-  const text = texts('error.refused', { command: title, code: codeText(error), meaning, remedy: remedy ?? '' })
+  const key = error.carriedOut === false ? 'error.refused' : 'error.leftOpen'
+  const text = texts(key, { command: title, code: codeText(error), meaning, remedy: remedy ?? '' })
   const head = headOfError(error)
   return head === undefined ? text : `${head}: ${text}`
 }

@@ -18,7 +18,7 @@ export const exitCodes = {
   ok: { code: 0, meaning: 'done' },
   bug: { code: 1, meaning: 'unexpected failure: please report it' },
   usage: { code: 2, meaning: 'wrong use or bad request; nothing was sent' },
-  refused: { code: 3, meaning: 'the PLC refused it (end code)' },
+  refused: { code: 3, meaning: 'the PLC answered with an end code' },
   unreachable: { code: 4, meaning: 'no connection, or no answer in time' },
   protocol: { code: 5, meaning: 'what was received breaks the protocol; of decode: the frame is wrong' },
   partly: { code: 6, meaning: 'some items failed, others did not; or a file was begun and not finished' },

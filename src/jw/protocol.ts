@@ -1,6 +1,6 @@
 import { hex } from '../basics/hex'
 import { EndCodeError } from '../errors'
-import { HeadProtocol } from '../link/link'
+import { endedWith, HeadProtocol } from '../link/link'
 import { jwCommands } from './commands'
 import { type JwFrameOptions, type JwHead, jwFrame } from './frame'
 import { resultFacts } from './result-codes'
@@ -18,11 +18,9 @@ export function jwProtocol(options: JwFrameOptions = {}): HeadProtocol<JwHead> {
     headOf: (command) => ({ command: command.code }),
     codeOf: (head) => head.command,
     refusal: (command, frame) => {
-      const code = hex(frame.endCode, 2)
-      return new EndCodeError(frame.endCode, `${command.title} was refused with result code ${code}H.`, {
-        family: 'jw',
-        ...resultFacts.refusal(command, frame.endCode),
-      })
+      const facts = resultFacts.refusal(command, frame.endCode)
+      const what = endedWith(facts, `result code ${hex(frame.endCode, 2)}H`)
+      return new EndCodeError(frame.endCode, `${command.title} ${what}.`, { family: 'jw', ...facts })
     },
   })
 }

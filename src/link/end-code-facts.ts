@@ -42,6 +42,12 @@ export function endCodeFacts(table: EndCodeTable): EndCodeFacts {
   }
 }
 
+/** What a message says became of a command. `code`: e.g. `end code C056`. */
+export function endedWith({ carriedOut }: RefusalFacts, code: string): string {
+  if (carriedOut === false) return `was refused with ${code}`
+  return `ended with ${code}, which leaves open whether anything of it was carried out`
+}
+
 /** Every code of a list with ranges. */
 export function each(codes: Codes): readonly number[] {
   return codes.flatMap((entry) =>

@@ -6,6 +6,7 @@ export {
   type EndCodeTable,
   each,
   endCodeFacts,
+  endedWith,
   type RefusalFacts,
 } from './end-code-facts'
 export { answerBytes, type Exchange, framed } from './exchange'

@@ -16,6 +16,7 @@ import { EndCodeError, ProtocolError, RequestError } from '../errors'
 import {
   answerBytes,
   type Exchange,
+  endedWith,
   type Framing,
   framed,
   type Head,
@@ -270,14 +271,15 @@ export class SlmpCommandSet {
     }
     const { endCode } = frame
     const station = information === undefined ? undefined : describeRoute(information)
+    const facts = factsOf.slmp.refusal(command, endCode)
     const { texts, sentences } = refusalTexts('slmp', { endCode, commandName: command.name })
     const reporter = station === undefined ? '' : ` (Reported by ${station}.)`
     return new EndCodeError(
       endCode,
-      `${command.title} was refused with end code ${hex(endCode, 4)}: ${sentences}${reporter}`,
+      `${command.title} ${endedWith(facts, `end code ${hex(endCode, 4)}`)}: ${sentences}${reporter}`,
       {
         family: 'slmp',
-        ...factsOf.slmp.refusal(command, endCode),
+        ...facts,
         ...(station === undefined ? {} : { station }),
         ...texts,
       },

@@ -22,6 +22,9 @@ function refused(exchange: Exchange<unknown>, head: Head, endCode: number, behin
   throw new Error('it was not refused')
 }
 
+/** What a message says: nothing is called refused that may have been carried out. */
+const ENDED = { refused: 'was refused with', unknown: 'which leaves open whether anything of it was carried out' }
+
 const slmp = protocolOf('iq-r')
 const words = [{ device: D0, value: 1 }]
 const write = slmp.exchange(commands.writeRandomWords, { words, doubleWords: [] })
@@ -43,6 +46,7 @@ describe('a refusal', () => {
     const error = refused(write, {}, endCode)
     expect(error).toMatchObject({ family: 'slmp', endCode, about, outcome, commandName: 'writeRandomWords' })
     expect(error.carriedOut).toBe(outcome === 'refused' ? false : undefined)
+    expect(error.message).toContain(ENDED[error.outcome])
   })
 
   test('of a read changes nothing, whatever the end code', () => {
@@ -58,8 +62,11 @@ describe('a refusal', () => {
     const behind = refused(exchange, head, 0x5b, '1000')
     expect(behind).toMatchObject({ family: '1E', endCode: 0x5b, abnormalCode: 0x10, about: 'route', carriedOut: false })
     expect(behind.meaning).toContain('PC No.')
+    expect(behind.message).toContain('was refused with end code 5BH, abnormal code 10H: ')
     // The CPU did not answer the module within the monitoring timer.
-    expect(refused(exchange, head, 0x60)).toMatchObject({ about: 'state', outcome: 'unknown' })
+    const silent = refused(exchange, head, 0x60)
+    expect(silent).toMatchObject({ about: 'state', outcome: 'unknown' })
+    expect(silent.message).toContain(`ended with end code 60H, ${ENDED.unknown}: `)
   })
 
   test.each([
@@ -73,5 +80,6 @@ describe('a refusal', () => {
     const error = refused(jwProtocol().exchange(writeDataMemory, message), { command: writeDataMemory.code }, endCode)
     expect(error).toMatchObject({ family: 'jw', about, outcome, commandName: 'writeDataMemory' })
     expect([error.meaning, error.remedy]).toEqual([undefined, undefined])
+    expect(error.message).toContain(ENDED[error.outcome])
   })
 })

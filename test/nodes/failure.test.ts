@@ -56,6 +56,27 @@ test('a status shows an end code with the digits of its family', () => {
 })
 
 describe('an end code', () => {
+  test.each(languages.filter((language) => language !== 'en-US'))(
+    'in %s: what may have been carried out is not called refused',
+    (language) => {
+      const texts = textsIn(language)
+      const error = new EndCodeError(0x4042, 'Write (word units) ended with end code 4042.', {
+        family: 'slmp',
+        about: 'item',
+        command: 'Write (word units)',
+        commandName: 'writeWords',
+        meaning: 'The module cannot be accessed.',
+      })
+      const { meaning = '', remedy = '' } = slmp(0x4042, language) ?? {}
+      const values = { command: texts('command.writeWords'), code: '4042H', meaning, remedy }
+      expect(detailsOf(error, texts)).toMatchObject({
+        outcome: 'unknown',
+        message: texts('error.leftOpen', values),
+      })
+      expect(texts('error.leftOpen', values)).not.toBe('undefined')
+    },
+  )
+
   test.each(languages.filter((language) => language !== 'en-US'))('in %s: message, meaning and remedy', (language) => {
     const { meaning = '', remedy = '' } = slmp(0xc056, language) ?? {}
     const details = detailsOf(refused(0xc056, 'readWords'), textsIn(language))

@@ -1,7 +1,7 @@
 import { hex } from '../../basics/hex'
 import { type DataCode, type Message, readerOf } from '../../codec/codec'
 import { EndCodeError, RequestError } from '../../errors'
-import { HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/link'
+import { endedWith, HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/link'
 import { FORM_XY_OCTAL } from '../device/codec'
 import { refusalTexts } from '../end-codes/end-code'
 import { factsOf } from '../end-codes/facts'
@@ -78,11 +78,12 @@ function refusal(code: DataCode, command: NamedCommand, frame: ResponseFrame): E
   const { endCode } = frame
   const abnormalCode = frame.body.length === 0 ? undefined : readerOf(code, frame.body).uint(1)
   const { texts, sentences } = refusalTexts('1E', { endCode, abnormalCode, commandName: command.name })
-  const what = `${command.title} was refused with end code ${hex(endCode, 2)}H`
+  const facts = factsOf['1E'].refusal(command, abnormalCode ?? endCode)
   const why = abnormalCode === undefined ? '' : `, abnormal code ${hex(abnormalCode, 2)}H`
-  return new EndCodeError(endCode, `${what}${why}: ${sentences}`, {
+  const what = endedWith(facts, `end code ${hex(endCode, 2)}H${why}`)
+  return new EndCodeError(endCode, `${command.title} ${what}: ${sentences}`, {
     family: '1E',
-    ...factsOf['1E'].refusal(command, abnormalCode ?? endCode),
+    ...facts,
     ...(abnormalCode === undefined ? {} : { abnormalCode }),
     ...texts,
   })

@@ -1,7 +1,7 @@
 import { hex } from '../../basics/hex'
 import type { Message } from '../../codec/codec'
 import { EndCodeError, RequestError } from '../../errors'
-import { type Framing, HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/link'
+import { endedWith, type Framing, HeadProtocol, type NamedCommand, type ResponseFrame } from '../../link/link'
 import { addressesOf, withFrameNames } from '../a-compatible/frame-names'
 import { type DeviceWindow, fx5Windows } from '../a-compatible/windows'
 import { FORM_XY_OCTAL } from '../device/codec'
@@ -75,9 +75,11 @@ function refuseXy(message: Message): void {
 
 function refusal(command: NamedCommand, { endCode }: ResponseFrame): EndCodeError {
   const { texts, sentences } = refusalTexts('1C', { endCode, commandName: command.name })
-  return new EndCodeError(
-    endCode,
-    `${command.title} (${command.name}) was refused with error code ${hex(endCode, 2)}H: ${sentences}`,
-    { family: '1C', ...factsOf['1C'].refusal(command, endCode), ...texts },
-  )
+  const facts = factsOf['1C'].refusal(command, endCode)
+  const what = endedWith(facts, `error code ${hex(endCode, 2)}H`)
+  return new EndCodeError(endCode, `${command.title} (${command.name}) ${what}: ${sentences}`, {
+    family: '1C',
+    ...facts,
+    ...texts,
+  })
 }
