@@ -323,7 +323,7 @@ describe('help', () => {
       expect(out).toMatch(new RegExp(`^  ${name} `, 'm'))
     }
     expect(out).toMatch(/^Exit codes:$/m)
-    expect(out).toMatch(/^ {2}3 {2}the PLC refused it/m)
+    expect(out).toMatch(/^ {2}3 {2}the PLC answered with an end code$/m)
   })
 
   test.each(['identify', 'read', 'write', 'control', 'simulate', 'decode', 'profiles', 'explain'])(
