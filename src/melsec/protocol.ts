@@ -59,7 +59,11 @@ export interface CommandSetOptions {
 
 export interface MelsecProtocolOptions<H extends Head> extends Omit<CommandSetOptions, 'body'> {
   /** `body`: what stands around the data; default as in 3E and 4E. */
-  readonly framing: Framing<H> & { readonly body?: BodyLayout }
+  readonly framing: Framing<H> & {
+    readonly body?: BodyLayout
+    /** @throws RequestError for a body that the frame cannot carry */
+    checkBody?(body: Uint8Array): void
+  }
   /** Head of every request: route and monitoring timer. */
   readonly head: H
   /** Head of what is for the connected station only (`to` of the declaration); default `head`, where that is the route. */
@@ -365,7 +369,7 @@ export class SlmpCommandSet {
 
 /** The command set in a frame: what a client sends and reads. */
 export class MelsecProtocol<H extends Head> extends SlmpCommandSet {
-  readonly framing: Framing<H>
+  readonly framing: MelsecProtocolOptions<H>['framing']
   readonly #head: H
   readonly #connectedHead: H
 
@@ -386,6 +390,7 @@ export class MelsecProtocol<H extends Head> extends SlmpCommandSet {
     options: ExchangeOptions = {},
   ): Exchange<ResponseOf<C>> {
     const asked = this.asked(command, message, options)
+    this.framing.checkBody?.(asked.body)
     const head = command.to === 'connected' ? this.#connectedHead : this.#head
     return { ...asked, ...framed({ framing: this.framing, head }, asked) }
   }

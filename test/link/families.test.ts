@@ -126,6 +126,14 @@ describe.each(['whole', 'byte by byte'] as const)('3C and 4C, %s', (wire) => {
     expect(error).toMatchObject({ code: 'ECHO_MISMATCH', outcome: 'unknown' })
   })
 
+  test('what the characters of a frame cannot say is refused before it is sent', () => {
+    const framing = serialFraming({ frame: '3C', format: 1 })
+    const q = new MelsecProtocol({ framing, head: serialRoute('3C'), profile: resolveProfile('q'), code: framing.code })
+    expect(() => q.exchange(commands.deleteFile, { drive: 4, name: 'ライン.CSV' })).toThrow(
+      /printable characters only, not 131/,
+    )
+  })
+
   const withSum = lines.filter(({ title }) => !title.includes('without'))
   test.each(withSum)('$title: a wrong sum of a request is answered by silence', ({ protocol }) => {
     const line = new Line(protocol.framing, serialPlc(protocol), wire)

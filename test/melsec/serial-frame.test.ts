@@ -274,6 +274,7 @@ describe('formats 1 and 4', () => {
   test('a body with anything but printable characters is not written', () => {
     for (const byte of [0x02, 0x0d, 0x7f, 0x80]) {
       expect(() => one.request.write(own('3C'), 0, Buffer.of(0x31, byte))).toThrow(`not ${byte}`)
+      expect(() => one.checkBody?.(Buffer.of(0x31, byte))).toThrow(`not ${byte}`)
     }
   })
 })

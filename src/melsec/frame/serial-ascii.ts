@@ -74,17 +74,22 @@ function writeResponse(layout: AsciiLayout, head: SerialHead, endCode: number, b
   return write(layout, { start: NAK, sum }, head, code)
 }
 
-/** @throws RequestError BAD_MESSAGE for a byte of the body that would end the frame */
+/** @throws RequestError BAD_MESSAGE for a byte of a body that would end its frame */
+export function checkCharacters(body: Uint8Array): void {
+  const other = body.find((byte) => !isCharacter(byte))
+  if (other === undefined) return
+  badMessage(`a serial frame in ASCII code carries printable characters only, not ${other}`)
+}
+
 function write(layout: AsciiLayout, { start, end, sum }: Enclosure, head: SerialHead, body: Uint8Array): Buffer {
   const { facts, crLf, etxInSum } = layout
   const size = 1 + serialHeadSize(facts, true) + body.length
   const frame = Buffer.allocUnsafe(size + (end === undefined ? 0 : 1) + (sum ? SUM : 0) + (crLf ? 2 : 0))
   frame[0] = start
   let at = putSerialHead(facts, frame, 1, head, true)
-  for (const byte of body) {
-    if (!isCharacter(byte)) badMessage(`a serial frame in ASCII code carries printable characters only, not ${byte}`)
-    frame[at++] = byte
-  }
+  checkCharacters(body)
+  frame.set(body, at)
+  at += body.length
   if (end !== undefined) frame[at++] = end
   if (sum) at = putUint(frame, at, sumOf(frame, 1, end !== undefined && etxInSum ? at : size), 1, true)
   if (crLf) frame.set([CR, LF], at)

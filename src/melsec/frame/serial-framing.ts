@@ -2,7 +2,7 @@
 import type { DataCode } from '../../codec/codec'
 import type { Framing, Head } from '../../link/link'
 import { type BodyLayout, plainBody, serialBody } from './body'
-import { asciiFraming } from './serial-ascii'
+import { asciiFraming, checkCharacters } from './serial-ascii'
 import { format5 } from './serial-binary'
 import {
   type ControlCode,
@@ -40,6 +40,8 @@ const NOTHING = Buffer.alloc(0)
 export interface SerialFraming extends Framing<SerialHead> {
   readonly body: BodyLayout
   readonly code: DataCode
+  /** @throws RequestError BAD_MESSAGE for a body that the frame cannot carry, as `write` does */
+  checkBody?(body: Uint8Array): void
 }
 
 /**
@@ -70,6 +72,7 @@ export function serialFraming(options: SerialFrameOptions): SerialFraming {
     ...common,
     ...asciiFraming({ facts: factsOfSerial(frame), crLf: format === 4, sumCheck, etxInSum, sumOfAck, errorDigits }),
     body: serialBody,
+    checkBody: checkCharacters,
     recovery: recoveryIn(format, initialise),
   }
 }
