@@ -11,7 +11,8 @@ import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import { explainFrame } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
 import { ownStation } from '../../src/melsec/frame/route'
-import { serialFraming } from '../../src/melsec/frame/serial-framing'
+import { serialRoute } from '../../src/melsec/frame/serial-frames'
+import { type SerialFrameOptions, serialFraming } from '../../src/melsec/frame/serial-framing'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { oneCCommands } from '../../src/melsec/one-c/commands'
 import { oneCProtocol } from '../../src/melsec/one-c/protocol'
@@ -74,22 +75,28 @@ function explaining(options: ExplainFrameOptions): Spoken<Head>['explain'] {
   return (bytes, request) => explainFrame(bytes, { ...options, ...(request === undefined ? {} : { request }) })
 }
 
-function format5(sumCheck: boolean): FrameKind {
-  return kind(`4C format 5${sumCheck ? '' : ' without sum check'}`, () => {
-    const route = { station: 0, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
+function serialName({ frame, format, sumCheck }: SerialFrameOptions): string {
+  return `${frame} format ${format}${sumCheck === false ? ' without sum check' : ''}`
+}
+
+function serial(options: SerialFrameOptions): FrameKind {
+  return kind(serialName(options), () => {
+    const framing = serialFraming(options)
+    const { code } = framing
     const protocol = new MelsecProtocol({
-      framing: serialFraming({ frame: '4C', format: 5, sumCheck }),
-      head: route,
+      framing,
+      head: serialRoute(options.frame),
       profile: lenient(profiles.q),
-      code: 'binary',
+      code,
+      asciiZr: 'decimal',
     })
     return {
-      framing: protocol.framing,
+      framing,
       samples: samplesOf(protocol),
-      code: 'binary',
-      requestLength: () => undefined,
+      code,
+      requestLength: (_head, soFar) => (options.format === 1 ? protocol.requestLength(soFar) : undefined),
       readRequest: (received) => protocol.readRequest(received),
-      explain: explaining({ frame: '4C', profile: 'q' }),
+      explain: explaining({ ...options, profile: 'q' }),
     }
   })
 }
@@ -107,11 +114,12 @@ function aCompatible(code: DataCode, family: 'iq-f' | 'fx3'): FrameKind {
 }
 
 function oneC(format: 1 | 4, sumCheck: boolean): FrameKind {
-  return kind(`1C format ${format}${sumCheck ? '' : ' without sum check'}`, () => {
-    const framing = serialFraming({ frame: '1C', format, sumCheck })
+  const options = { frame: '1C', format, sumCheck } as const
+  return kind(serialName(options), () => {
+    const framing = serialFraming(options)
     const protocol = oneCProtocol({ framing, head: { station: 0, pc: 0xff }, asciiXy: 'octal' })
     return headed(protocol, oneCCommands, 'ascii', {
-      explain: explaining({ frame: '1C', format, sumCheck, profile: 'iq-f', asciiXy: 'octal' }),
+      explain: explaining({ ...options, profile: 'iq-f', asciiXy: 'octal' }),
     })
   })
 }
@@ -162,8 +170,12 @@ function exists(name: SlmpName, code: DataCode): boolean {
 
 export const frameKinds: readonly FrameKind[] = [
   ...names.flatMap(kindsOf),
-  format5(true),
-  format5(false),
+  serial({ frame: '3C', format: 1 }),
+  serial({ frame: '3C', format: 4, sumCheck: false }),
+  serial({ frame: '4C', format: 1, sumCheck: false }),
+  serial({ frame: '4C', format: 4 }),
+  serial({ frame: '4C', format: 5 }),
+  serial({ frame: '4C', format: 5, sumCheck: false }),
   ...([1, 4] as const).flatMap((format) => [oneC(format, true), oneC(format, false)]),
   jw('none'),
   jw('zero40'),

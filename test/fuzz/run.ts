@@ -143,7 +143,7 @@ abstract class Direction<H extends Head> {
     if (how === 2) return damage.load(frame(body)).bytes
     if (how < 8) return damage.load(frame(body)).times(frame(other)).bytes
     const damaged = damage.load(body).times(other).bytes
-    return damage.load(framed(frame, damaged.subarray(0, 0xfff0))).bytes
+    return damage.load(frame(damaged.subarray(0, 0xfff0))).bytes
   }
 
   /** Copies, because a session keeps its chunks; cut anywhere. */
@@ -204,8 +204,8 @@ class Requests<H extends Head> extends Direction<H> {
     const bytes = this.make(
       one.exchange.body,
       other.exchange.body,
-      (body) => framing.request.write(headOf(this.spoken, one), serial, body),
-      () => framing.response.write(headOf(this.spoken, one), serial, 0, one.answer),
+      (body) => framed((carried) => framing.request.write(headOf(this.spoken, one), serial, carried), body),
+      () => framed((carried) => framing.response.write(headOf(this.spoken, one), serial, 0, carried), one.answer),
     )
     this.count(() => {
       const scanned = framing.request.scan(bytes, requestLength)
@@ -263,7 +263,7 @@ class Answers<H extends Head> extends Direction<H> {
     const bytes = this.make(
       one.answer,
       other.answer,
-      (body) => framing.response.write(headOf(this.spoken, one), serial, endCode, body),
+      (body) => framed((carried) => framing.response.write(headOf(this.spoken, one), serial, endCode, carried), body),
       () => sent,
     )
     this.count(() => {

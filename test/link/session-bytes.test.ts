@@ -207,7 +207,7 @@ describe('any bytes', () => {
   const all: readonly Fuzzed[] = [
     ...slmpFrames.map(({ framing }) => fuzzed(framing, HEAD)),
     ...(['binary', 'ascii'] as const).map((code) => fuzzed(frame1e(code), { command: 1, pc: 0xff, timer: 0 })),
-    fuzzed(serialFraming({ frame: '4C', format: 5 }), route),
+    ...([1, 4, 5] as const).map((format) => fuzzed(serialFraming({ frame: '4C', format }), route)),
     fuzzed(jwFrame(), { command: 0x24 }),
   ]
   /** Heads of every frame, so that the bytes come far enough to be read. */
@@ -223,6 +223,9 @@ describe('any bytes', () => {
     '8100',
     '38313030',
     '1002',
+    '0246383030',
+    '0646383030303046463033464630303030',
+    '1546383030',
     '450024',
     '00'.repeat(40),
   ]
