@@ -196,7 +196,7 @@ export class Session<J extends Job = Job> {
   /** When something is due, or `undefined` when nothing waits. */
   nextTimeout(now: number): number | undefined {
     let earliest: number | undefined
-    if (this.#waiting.size > 0) earliest = this.#fence?.due ?? this.#recovery?.due
+    if (this.#waiting.peek(now) !== undefined) earliest = this.#fence?.due ?? this.#recovery?.due
     earliest = earlier(earliest, this.#halfUntil)
     if (this.#pending.length < this.#options.window) earliest = earlier(earliest, this.#waiting.due(now))
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline

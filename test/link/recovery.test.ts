@@ -173,3 +173,17 @@ describe('rubbish', () => {
     expect(line.session.buffered).toBe(0)
   })
 })
+
+test('what may not go yet is waited for, also when the line is in a known state long before', () => {
+  const line = new Line()
+  line.ask('A', 0, 10)
+  line.session.timeout(10)
+  line.session.transmit()
+  const question = questionOf(framing, head(0), Buffer.from('B'))
+  line.session.submit({ name: 'B', deadline: 10_000, notBefore: 5000, ...question }, 11)
+  expect(line.session.nextTimeout(11)).toBe(5000)
+  line.session.timeout(10 + QUIET)
+  expect(line.session.nextTimeout(10 + QUIET)).toBe(5000)
+  line.session.timeout(5000)
+  expect(line.session.transmit()).toBeDefined()
+})
