@@ -301,8 +301,9 @@ function mayBeAbout(error: PlcError, items: number): boolean {
   return error instanceof EndCodeError && (items === 1 || !isAboutNoItem(error))
 }
 
-/** A refusal in the middle of an array: the PLC was changed, so `refused` or `notSent` would be a lie. */
+/** A failure in the middle of an array: the PLC was changed, so `refused` or `notSent` would be a lie. */
 function partlyWritten(text: string, written: number, cause: PlcError): PlcError {
-  const message = `${text}: the first ${written} values were written, the others not. ${cause.message}`
+  const others = cause.outcome === 'unknown' ? '; whether more were is not known' : ', the others not'
+  const message = `${text}: the first ${written} values were written${others}. ${cause.message}`
   return new ClosedError('ABORTED', message, 'unknown', cause)
 }
