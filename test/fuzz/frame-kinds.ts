@@ -34,6 +34,8 @@ export interface Spoken<H extends Head> {
   readonly readRequest: (frame: RequestFrame<H>) => unknown
   /** In words; `request` is the one that is answered. */
   readonly explain: (bytes: Buffer, request: Buffer | undefined) => unknown
+  /** Where the frame has no room for others. */
+  readonly endCodes?: readonly number[]
   /** Simulated PLCs that take it. */
   readonly plc?: { readonly profile: ProfileId; readonly frames: readonly FrameName[] }
 }
@@ -119,6 +121,7 @@ function oneC(format: 1 | 4, sumCheck: boolean): FrameKind {
     const framing = serialFraming(options)
     const protocol = oneCProtocol({ framing, head: { station: 0, pc: 0xff }, asciiXy: 'octal' })
     return headed(protocol, oneCCommands, 'ascii', {
+      endCodes: [1, 0x5b, 0x10, 0xff],
       explain: explaining({ ...options, profile: 'iq-f', asciiXy: 'octal' }),
     })
   })
@@ -138,7 +141,7 @@ function headed<H extends Head>(
   protocol: HeadProtocol<H>,
   list: Parameters<typeof samplesOfHead>[1],
   code: DataCode,
-  rest: Pick<Spoken<H>, 'explain' | 'plc'>,
+  rest: Pick<Spoken<H>, 'explain' | 'plc' | 'endCodes'>,
 ): Spoken<H> {
   return {
     framing: protocol.framing,

@@ -259,7 +259,7 @@ class Answers<H extends Head> extends Direction<H> {
     const sent = session.transmit()
     if (sent === undefined) throw new Error('the session sends nothing')
     const serial = framing.request.scan(sent, requestLength)?.frame.serial ?? 0
-    const endCode = random.oneIn(8) ? random.pick([1, 0x5b, 0xc056, 0xffff]) : 0
+    const endCode = random.oneIn(8) ? random.pick(this.spoken.endCodes ?? [1, 0x5b, 0xc056, 0xffff]) : 0
     const bytes = this.make(
       one.answer,
       other.answer,

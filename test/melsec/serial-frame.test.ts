@@ -1,7 +1,7 @@
 // Serial frames beside what the manual prints: options, routes, noise, broken frames.
 import { describe, expect, test } from '@jest/globals'
 import { type PlcError, ProtocolError, RequestError } from '../../src/errors'
-import { Responder } from '../../src/link/link'
+import { Responder, Session } from '../../src/link/link'
 import {
   allStations,
   LONGEST_SERIAL_FRAME,
@@ -10,6 +10,8 @@ import {
   serialRoute,
 } from '../../src/melsec/frame/serial-frames'
 import { type SerialFrameOptions, type SerialFraming, serialFraming } from '../../src/melsec/frame/serial-framing'
+import { eventsOf } from '../link/support'
+import { questionOf } from '../support/question'
 import { controlText } from '../vectors/control-text'
 
 const noLength = () => undefined
@@ -75,6 +77,7 @@ describe('what the manual leaves open', () => {
   })
 
   test('digits of the error code', () => {
+    expect(() => f({}).response.write(head1c, 0, 0x7143, Buffer.alloc(0))).toThrow('does not fit into 2 digits')
     expect(f({ errorDigits: 4 }).response.scan(frame('<NAK>00FF0006'), noLength)?.frame.endCode).toBe(6)
     const two = serialFraming({ frame: '3C', format: 4, errorDigits: 2 })
     expect(two.response.scan(frame('<NAK>F90000FF0043<CR><LF>'), noLength)?.frame.endCode).toBe(0x43)
@@ -176,6 +179,27 @@ describe.each(titled)('$title', ({ options }) => {
     for (const one of [answer(), answer(0, ''), answer(6, '')]) {
       expect(framing.request.noise?.(Buffer.concat([one, request()]))).toBe(one.length)
     }
+  })
+
+  test.each(['at once', 'byte by byte'])('on a line that gives back what is sent the answer is found, %s', (how) => {
+    for (const [code, text] of [
+      [0, '1234'],
+      [0, ''],
+      [6, ''],
+    ] as const) {
+      const session = new Session(framing, { kind: 'stream', window: 1, recovery: { quiet: 1, betweenBytes: 1 } })
+      session.submit({ ...questionOf(framing, head, Buffer.from('QQ0A')), deadline: 100 }, 0)
+      const bytes = Buffer.concat([Buffer.from(rubbish), session.transmit() ?? Buffer.alloc(0), answer(code, text)])
+      for (const chunk of how === 'at once' ? [bytes] : [...bytes].map((byte) => Buffer.of(byte)))
+        session.receive(chunk, 0)
+      const done = eventsOf(session).filter(({ kind }) => kind === 'done')
+      expect(done).toMatchObject([{ outcome: { kind: 'answered', frame: { endCode: code, body: Buffer.from(text) } } }])
+    }
+  })
+
+  test('a message that no frame is long enough for is refused', () => {
+    expect(() => framing.checkBody?.(Buffer.alloc(LONGEST_SERIAL_FRAME, 0x31))).toThrow('at most 16320 bytes')
+    expect(framing.checkBody?.(Buffer.alloc(16_000, 0x31))).toBeUndefined()
   })
 
   test('the responder finds the next request behind a broken one', () => {

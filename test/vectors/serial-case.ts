@@ -5,6 +5,7 @@ import { type CommandName, commands } from '../../src/melsec/commands/commands'
 import { FORM_BITS, subcommandOf } from '../../src/melsec/device/form'
 import type { SerialFormat, SerialFrameName, SerialHead } from '../../src/melsec/frame/serial-frames'
 import { type SerialFrameOptions, serialFraming } from '../../src/melsec/frame/serial-framing'
+import { oneCProtocol } from '../../src/melsec/one-c/protocol'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import type { FrameCase } from './feedings'
@@ -44,18 +45,21 @@ export function serialCase(vector: FrameVector, options = optionsOf(vector)): Fr
     askedHead: headOf(vector),
     body,
     ...(vector.endCode === undefined ? {} : { endCode: vector.endCode }),
-    bodyLength: lengthOf(vector, body),
+    bodyLength: lengthOf(vector),
   }
 }
 
 /** Where a body ends: known in format 1 by its command only. */
-export function lengthOf(vector: FrameVector, body: Buffer): BodyLength {
+export function lengthOf(vector: FrameVector): BodyLength {
   const { frame, format } = optionsOf(vector)
-  if (frame === '1C') return (_head, soFar) => (soFar.length < 3 ? undefined : body.length)
-  if (format === 1 && vector.side === 'request') return (_head, soFar) => slmp(vector).requestLength(soFar)
-  return () => {
-    throw new Error('a frame with an end asked for a length')
+  if (format !== 1 || vector.side === 'response') {
+    return () => {
+      throw new Error('a frame with an end asked for a length')
+    }
   }
+  if (frame !== '1C') return (_head, soFar) => slmp(vector).requestLength(soFar)
+  const protocol = oneCProtocol({ framing: serialFraming(optionsOf(vector)), head: headOf(vector) })
+  return (head, soFar) => protocol.requestLength(head, soFar)
 }
 
 /** The protocol of a 3C or 4C vector. */

@@ -69,6 +69,7 @@ function writeResponse(layout: AsciiLayout, head: SerialHead, endCode: number, b
   if (endCode === 0 && body.length > 0) return write(layout, { start: STX, end: ETX, sum: sumCheck }, head, body)
   const sum = sumCheck && sumOfAck
   if (endCode === 0) return write(layout, { start: ACK, sum }, head, EMPTY)
+  if (errorDigits === 2 && endCode > 0xff) badMessage(`error code ${endCode} does not fit into ${errorDigits} digits`)
   const code = Buffer.allocUnsafe(errorDigits)
   putUint(code, 0, endCode, errorDigits === 2 ? 1 : 2, true)
   return write(layout, { start: NAK, sum }, head, code)

@@ -1,5 +1,5 @@
 // Framing of the serial frames: frame, format, and what the manual leaves open.
-import type { DataCode } from '../../codec/codec'
+import { badMessage, type DataCode } from '../../codec/codec'
 import type { Framing, Head } from '../../link/link'
 import { type BodyLayout, plainBody, serialBody } from './body'
 import { asciiFraming, checkCharacters } from './serial-ascii'
@@ -9,6 +9,7 @@ import {
   checkFormat,
   controlCodes,
   factsOfSerial,
+  LONGEST_SERIAL_FRAME,
   type SerialFormat,
   type SerialFrameName,
   type SerialHead,
@@ -35,6 +36,8 @@ export interface SerialFrameOptions {
 
 /** Format 5 has no control code for it. The manual names a command 1615 (42.3), which its list of commands lacks. */
 const NOTHING = Buffer.alloc(0)
+/** More than any frame has around its data. */
+const HEAD_AND_SUM = 64
 
 /** Framing of a serial frame: also says what stands around the data of a command. */
 export interface SerialFraming extends Framing<SerialHead> {
@@ -60,7 +63,7 @@ export function serialFraming(options: SerialFrameOptions): SerialFraming {
   } as const
   if (format === 5) {
     const body = errorInformation ? plainBody : serialBody
-    return { ...common, ...format5(factsOfSerial(frame), sumCheck), body, recovery: NOTHING }
+    return { ...common, ...format5(factsOfSerial(frame), sumCheck), body, checkBody: checkSize, recovery: NOTHING }
   }
   const {
     etxInSum = true,
@@ -72,9 +75,18 @@ export function serialFraming(options: SerialFrameOptions): SerialFraming {
     ...common,
     ...asciiFraming({ facts: factsOfSerial(frame), crLf: format === 4, sumCheck, etxInSum, sumOfAck, errorDigits }),
     body: serialBody,
-    checkBody: checkCharacters,
+    checkBody(body) {
+      checkSize(body)
+      checkCharacters(body)
+    },
     recovery: recoveryIn(format, initialise),
   }
+}
+
+/** A scan refuses what is longer, so that a broken frame ends. */
+function checkSize(body: Uint8Array): void {
+  const most = LONGEST_SERIAL_FRAME - HEAD_AND_SUM
+  if (body.length > most) badMessage(`a serial frame carries at most ${most} bytes of a message, not ${body.length}`)
 }
 
 /** The control code alone, without any station: 42.3. */
