@@ -318,9 +318,18 @@ describe('a write of unknown outcome', () => {
     plc.refuse = (device) => (device === 'D2000' ? DEVICE_NUMBER : 0)
     const [result] = await run()
     expect(errorOf(result)).toMatchObject({ code: 'ABORTED', outcome: 'unknown' })
-    expect(errorOf(result).message).toContain('the first 1920 values were written')
+    expect(errorOf(result).message).toContain('the first 1920 values were written, the others not.')
     // The parts behind the refused one are not sent.
     expect(plc.seen).toHaveLength(3)
+  })
+
+  test('in the middle of an array says that nobody knows of more, when nobody does', async () => {
+    const { run, plc } = bench([['D0:INT[3000]', new Array(3000).fill(1)]])
+    let sent = 0
+    const lost = new TimeoutError('no answer', 'unknown')
+    const [result] = await run((exchange) => (sent++ < 2 ? plc.send(exchange) : Promise.reject(lost)))
+    expect(errorOf(result)).toMatchObject({ code: 'ABORTED', outcome: 'unknown', cause: lost })
+    expect(errorOf(result).message).toContain('the first 1920 values were written; whether more were is not known.')
   })
 
   test('at the start of an array: nothing of it was written', async () => {
