@@ -150,6 +150,22 @@ describe('lists', () => {
     expect(spans).toEqual(expect.arrayContaining(membersOf('src/client/connection/statistics.ts', 'RoundTrip')))
   })
 
+  test.each([
+    ['docs/client.md', '`frame`', library.frameNames],
+    ['docs/cli.md', '`--frame <name>`', library.frameNames],
+    ['docs/nodes/connection.md', '`frame`', library.frameNames],
+    ['docs/client.md', '`transport`', library.transportNames],
+    ['docs/nodes/connection.md', '`transport`', library.transportNames],
+    ['docs/client.md', '`probe`', library.probeKinds],
+    ['docs/cli.md', '`--probe <name>`', library.probeKinds],
+    ['docs/nodes/connection.md', '`probe`', library.probeKinds],
+  ])('%s: the row of %s names what it takes', (page, cell, names) => {
+    const row = proseOf(page)
+      .split('\n')
+      .find((line) => line.startsWith(`| ${cell} `))
+    expect(codeSpansOf(row ?? '')).toEqual(expect.arrayContaining([...names]))
+  })
+
   test('commands that request() takes are in docs/client.md', () => {
     const [, behind = ''] = proseOf('docs/client.md').split('<!-- commands -->')
     const [sentence = ''] = behind.trim().split('`describeFields')
