@@ -217,6 +217,8 @@ const FOR_TESTS: readonly string[] = [
   'endCodeTables',
   'protocolOver1c',
   'serialProfiles',
+  'serialTransport',
+  'lineTime',
 ]
 
 /** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */

@@ -1,0 +1,53 @@
+// Request to send, which a pair of ttys does not have: what the port is told, in its order.
+import { beforeEach, expect, jest, test } from '@jest/globals'
+import { serialTransport } from '../../src/transport/serial'
+
+const done: unknown[] = []
+
+class FakePort {
+  isOpen = false
+
+  on() {}
+
+  open(then: (error: null) => void) {
+    this.isOpen = true
+    then(null)
+  }
+
+  set(options: object, then?: (error: null) => void) {
+    done.push(options)
+    then?.(null)
+  }
+
+  write() {
+    done.push('write')
+  }
+
+  drain(then: () => void) {
+    done.push('drain')
+    then()
+  }
+
+  close(then: () => void) {
+    done.push('close')
+    then()
+  }
+}
+
+jest.mock('serialport', () => ({ SerialPort: FakePort }))
+
+beforeEach(() => {
+  done.length = 0
+})
+
+test.each([
+  ['on', ['write', 'close']],
+  ['off', [{ rts: false }, 'write', 'close']],
+  ['sending', [{ rts: false }, { rts: true }, 'write', 'drain', { rts: false }, 'close']],
+] as const)('%s', (rts, expected) => {
+  const transport = serialTransport({ path: 'COM3', rts })()
+  transport.open({ opened() {}, received() {}, closed() {} })
+  transport.send(Buffer.of(1))
+  transport.close()
+  expect(done).toEqual(expected)
+})
