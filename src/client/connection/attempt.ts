@@ -109,9 +109,9 @@ export class Attempt implements LineUser {
     this.#owner.trace('sent', bytes)
   }
 
-  received(bytes: Buffer): void {
+  received(bytes: Buffer, now: number): void {
     this.#receivedAnything = true
-    this.#opening.heard(this.#options.clock.now())
+    this.#opening.heard(now)
     this.#owner.counters.add('bytesReceived', bytes.length)
     this.#owner.trace('received', bytes)
   }

@@ -54,7 +54,7 @@ export interface LineUser {
   /** Bytes went out: its own, or such as are nobody's. */
   sent(bytes: Buffer): void
   /** Bytes came that may be for it: something of it was in flight, or nobody else uses the line. */
-  received(bytes: Buffer): void
+  received(bytes: Buffer, now: number): void
   settled(end: LineEnd): void
   unsolicited(frame: RequestFrame): void
   /** An answer was thrown away. `isAlive`: it shows that this PLC answers. */
@@ -82,6 +82,8 @@ export class Line {
   readonly #users = new Set<LineUser>()
   readonly #serials: SerialNumbers
   readonly #fence: Fence
+  /** The only one of them, as on most lines. */
+  #alone: LineUser | undefined
   #carrier: Carrier | undefined
   #peer = 'the PLC'
 
@@ -133,12 +135,18 @@ export class Line {
   }
 
   #userOf({ plc }: Call): LineUser | undefined {
+    if (this.#alone === plc) return this.#alone
     for (const user of this.#users) if (user === plc) return user
     return undefined
   }
 
+  #countUsers(): void {
+    const [first] = this.#users
+    this.#alone = this.#users.size === 1 ? first : undefined
+  }
+
   #isAlone(user: LineUser): boolean {
-    return this.#users.size === 1 && this.#users.has(user)
+    return this.#alone === user
   }
 
   /**
@@ -147,6 +155,7 @@ export class Line {
    */
   join(user: LineUser): void {
     this.#users.add(user)
+    this.#countUsers()
     if (this.#carrier === undefined) this.#open()
     else if (this.isOpen) user.opened()
   }
@@ -158,9 +167,11 @@ export class Line {
       const { ends, others } = this.#end()
       for (const event of others) this.#take(event)
       this.#users.delete(user)
+      this.#countUsers()
       return ends
     }
     this.#users.delete(user)
+    this.#countUsers()
     const released = this.#carrier?.session?.release((call) => call.plc === user, this.#options.clock.now()) ?? []
     this.flush()
     return released
@@ -210,16 +221,17 @@ export class Line {
   }
 
   #received(carrier: Carrier, bytes: Buffer): void {
-    for (const user of this.#concerned()) user.received(bytes)
+    const now = this.#options.clock.now()
+    if (this.#alone !== undefined) this.#alone.received(bytes, now)
+    else for (const user of this.#concerned()) user.received(bytes, now)
     if (this.#carrier !== carrier) return
-    carrier.session?.receive(bytes, this.#options.clock.now())
-    this.flush()
+    carrier.session?.receive(bytes, now)
+    this.flush(now)
   }
 
-  /** Whom bytes from the line may be for. */
+  /** Whom bytes from the line may be for, where several share it. */
   #concerned(): readonly LineUser[] {
-    const users = [...this.#users]
-    return users.length === 1 ? users : users.filter((user) => this.counts(user).inFlight > 0)
+    return [...this.#users].filter((user) => this.counts(user).inFlight > 0)
   }
 
   /** Sends it when its turn comes. `flush` afterwards. */
@@ -233,7 +245,7 @@ export class Line {
   }
 
   /** Takes what the session has to say, then what it has to send, until it is quiet. */
-  flush(): void {
+  flush(now = this.#options.clock.now()): void {
     const carrier = this.#carrier
     const session = carrier?.session
     if (carrier === undefined || session === undefined) return
@@ -247,12 +259,13 @@ export class Line {
       this.#send(carrier, next)
       if (this.#carrier !== carrier) return
     }
-    this.#schedule()
+    this.#schedule(now)
   }
 
   #send(carrier: Carrier, { bytes, job }: Sent<Call>): void {
     const user = job && this.#userOf(job)
-    for (const each of user === undefined ? [...this.#users] : [user]) each.sent(bytes)
+    if (user !== undefined) user.sent(bytes)
+    else for (const each of [...this.#users]) each.sent(bytes)
     if (this.#carrier === carrier) carrier.transport.send(bytes)
   }
 
@@ -291,6 +304,7 @@ export class Line {
     const users = [...this.#users]
     const { ends, others } = this.#end()
     this.#users.clear()
+    this.#countUsers()
     // First all of them get back what is theirs: whoever is told of the loss may close any of them.
     for (const user of users) user.ended(ends.filter(({ job }) => job.plc === user))
     for (const user of users) user.lost(error)
@@ -316,9 +330,9 @@ export class Line {
     return { ends, others }
   }
 
-  #schedule(): void {
+  #schedule(now = this.#options.clock.now()): void {
     const carrier = this.#carrier
-    const due = carrier?.openBy ?? carrier?.session?.nextTimeout(this.#options.clock.now())
+    const due = carrier?.openBy ?? carrier?.session?.nextTimeout(now)
     if (due !== undefined) this.#alarm.set(due)
   }
 
@@ -332,8 +346,8 @@ export class Line {
         return
       }
       carrier?.session?.timeout(now)
-      this.flush()
-      this.#schedule()
+      this.flush(now)
+      this.#schedule(now)
     })
   }
 }
