@@ -25,8 +25,8 @@ export interface Place {
   /** `values`: words as they stand; `bits`: BOOL; `digits`: numbers put together from their bits. */
   readonly kind: 'values' | 'bits' | 'digits'
   readonly isArray: boolean
-  /** The values are the words themselves. */
-  readonly isWords: boolean
+  /** The values are the words themselves, as they are or with a sign. */
+  readonly words: 'unsigned' | 'signed' | undefined
   /** Of one value of whole words. */
   readonly decode?: (words: Words, offset: number) => PlcValue
   readonly type: ValueType
@@ -52,15 +52,17 @@ export function placeOf(piece: Piece, item: ParsedItem, from: number, cell: numb
     // Every value is words of their own, or its bits are looked for one by one.
     kind: isBit ? 'bits' : isWhole ? 'values' : 'digits',
     isArray,
-    isWords: isWord(item) && pitch === width && isWhole,
+    words: pitch === width && isWhole ? wordsOfItem(item) : undefined,
     ...(isWhole && !isArray ? { decode: decoderOf(item.type, item.format) } : {}),
     type: item.type,
     format: item.format,
   }
 }
 
-function isWord({ type: { name }, format }: ParsedItem): boolean {
-  return (name === 'UINT' || name === 'WORD') && format.byteOrder !== 'high-first'
+function wordsOfItem({ type: { name }, format }: ParsedItem): Place['words'] {
+  if (format.byteOrder === 'high-first') return undefined
+  if (name === 'INT') return 'signed'
+  return name === 'UINT' || name === 'WORD' ? 'unsigned' : undefined
 }
 
 /** @throws ProtocolError BAD_FIELD when the words are no value of the type. */
@@ -68,16 +70,23 @@ export function valueAt(words: Words, place: Place): PlcValue | PlcValue[] {
   const { kind, at, type, format, isArray, count, decode } = place
   if (decode !== undefined) return decode(words, at / 16)
   if (kind === 'bits') return isArray ? bitsAt(words, place) : isSet(words, at)
-  if (place.isWords && isArray)
-    return wordsAt(words, at / 16, count) ?? decodeArray(type, words, at / 16, count, format)
+  if (place.words !== undefined && isArray)
+    return wordsAt(words, at / 16, count, place.words) ?? decodeArray(type, words, at / 16, count, format)
   if (kind === 'values' && place.pitch === place.width) return decodeArray(type, words, at / 16, count, format)
   const gathered = kind === 'values' ? recordsAt(words, place) : digitsAt(words, place)
   return isArray ? decodeArray(type, gathered, 0, count, format) : decodeValue(type, gathered, 0, format)
 }
 
 /** A decoded answer holds nothing but words; copied as a whole they cost a sixth of what each alone would. */
-function wordsAt(words: Words, from: number, count: number): number[] | undefined {
-  return Array.isArray(words) && from + count <= words.length ? words.slice(from, from + count) : undefined
+function wordsAt(words: Words, from: number, count: number, as: 'unsigned' | 'signed'): number[] | undefined {
+  if (!Array.isArray(words) || from + count > words.length) return undefined
+  const values: number[] = words.slice(from, from + count)
+  if (as === 'unsigned') return values
+  for (let at = 0; at < count; at++) {
+    const word = values[at] as number
+    if (word > 0x7fff) values[at] = word - 0x1_0000
+  }
+  return values
 }
 
 function isSet(words: Words, bit: number): boolean {
