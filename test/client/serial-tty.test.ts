@@ -34,6 +34,9 @@ interface Noise {
   readonly answers: number
   /** Share of the requests. */
   readonly requests: number
+  /** ms that a call may take, and that may be between two bytes: without noise nothing waits for either. */
+  readonly timeout: number
+  readonly betweenBytes: number
 }
 
 /** Stations 1 and 2, each with its words; writes are counted by what they write. */
@@ -124,7 +127,7 @@ async function started(options: SerialFrameOptions, noise: Noise) {
     timeout: 2000,
     random: Math.random,
     proof: proofs(first, Math.random),
-    recovery: { quiet: 5, betweenBytes: 20 },
+    recovery: { quiet: 5, betweenBytes: noise.betweenBytes },
   })
   const connections = protocols.map((protocol) => {
     const settings: ConnectionOptions = {
@@ -155,8 +158,8 @@ const serial = [
 
 describe.each(serial)('$frame format $format over a pair of ports', (options) => {
   test.each([
-    ['without noise', { answers: 0, requests: 0 }, 200],
-    ['with noise', { answers: 0.05, requests: 0.05 }, 50],
+    ['without noise', { answers: 0, requests: 0, timeout: 10_000, betweenBytes: 2000 }, 200],
+    ['with noise', { answers: 0.05, requests: 0.05, timeout: 120, betweenBytes: 20 }, 50],
   ])(
     '%s: no wrong value, no doubled write, and every lost one is told',
     async (_name, noise, count) => {
@@ -170,7 +173,7 @@ describe.each(serial)('$frame format $format over a pair of ports', (options) =>
           connections.map(async ({ connection, protocol }, at) => {
             const unique = value * 2 + at
             const write = protocol.exchange(commands.writeWords, { head: D(number), values: [unique] })
-            const outcome = await connection.request(write, { timeout: 120 }).catch((error: unknown) => {
+            const outcome = await connection.request(write, { timeout: noise.timeout }).catch((error: unknown) => {
               if (error instanceof PlcError) return error
               throw error
             })
@@ -182,7 +185,7 @@ describe.each(serial)('$frame format $format over a pair of ports', (options) =>
             }
             expect(times).toBe(1)
             const read = protocol.exchange(commands.readWords, { head: D(number), points: 1 })
-            const answer = await connection.request(read, { timeout: 120 }).catch(() => undefined)
+            const answer = await connection.request(read, { timeout: noise.timeout }).catch(() => undefined)
             if (answer === undefined) told += 1
             else expect(answer.values).toEqual([unique])
           }),
