@@ -111,7 +111,7 @@ export interface Job extends Question, Scheduled {
 
 /** How a job ended. */
 export type JobEnd =
-  | { readonly kind: 'answered'; readonly frame: ResponseFrame }
+  | { readonly kind: 'answered'; readonly frame: ResponseFrame; readonly at: number }
   | { readonly kind: 'timedOut'; readonly sent: boolean }
   | { readonly kind: 'disconnected'; readonly sent: boolean }
   /** Not sent: what must come back before it, so that its answer can be known (see `Fence`), did not in time. */

@@ -417,7 +417,7 @@ export class Session<J extends Job = Job> {
     if (allowance !== undefined) roundTrips.add(now - found.sentAt)
     this.#answeredAt = now
     this.#fence?.answered()
-    this.#finish(found.job, { kind: 'answered', frame }, found.sentAt)
+    this.#finish(found.job, { kind: 'answered', frame, at: now }, found.sentAt)
     if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order') this.#renew('answered')
   }
 

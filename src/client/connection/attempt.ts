@@ -148,9 +148,9 @@ export class Attempt implements LineUser {
   }
 
   /** Sends it when its turn comes. `flush` afterwards. */
-  submit(call: Call): void {
+  submit(call: Call, now = this.#options.clock.now()): void {
     call.over(this, this.#owner.roundTrips)
-    if (this.#ends === undefined) this.#line.submit(call)
+    if (this.#ends === undefined) this.#line.submit(call, now)
     else this.#ends = [...this.#ends, { job: call, outcome: { kind: 'disconnected', sent: false }, sentAt: undefined }]
   }
 
@@ -161,8 +161,8 @@ export class Attempt implements LineUser {
     return outcome?.kind === 'disconnected' ? outcome.sent : undefined
   }
 
-  flush(): void {
-    if (!this.#over) this.#line.flush()
+  flush(now = this.#options.clock.now()): void {
+    if (!this.#over) this.#line.flush(now)
   }
 
   /** Why nothing may be sent any more without a new attempt. */
@@ -193,7 +193,8 @@ export class Attempt implements LineUser {
   }
 
   settled({ job, outcome, sentAt }: LineEnd): void {
-    if (outcome.kind === 'answered') this.#answered(job, outcome.frame, sentAt)
+    if (outcome.kind === 'answered')
+      this.#answered(job, outcome.frame, sentAt === undefined ? undefined : outcome.at - sentAt)
     else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
     else if (outcome.kind === 'unproved') this.#unproved(job)
     else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
@@ -201,7 +202,7 @@ export class Attempt implements LineUser {
     else if (outcome.kind === 'failed') this.#failed(job, outcome.error)
   }
 
-  #answered(job: Call, frame: ResponseFrame, sentAt: number | undefined): void {
+  #answered(job: Call, frame: ResponseFrame, roundTrip: number | undefined): void {
     const { counters } = this.#owner
     const isProbe = this.#opening.owns(job)
     this.#silent = 0
@@ -209,7 +210,6 @@ export class Attempt implements LineUser {
       this.submit(job)
       return
     }
-    const roundTrip = sentAt === undefined ? undefined : this.#options.clock.now() - sentAt
     const error = job.answer(frame, roundTrip)
     if (!isProbe) {
       counters.add('answered')

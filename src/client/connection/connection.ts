@@ -136,7 +136,7 @@ export class Connection {
         this.#signals.watch(signal, () => this.#guard(() => this.#abort(call))),
       )
     }
-    this.#guard(() => this.#start(call))
+    this.#guard(() => this.#start(call, now))
   }
 
   #refusalOf(exchange: Exchange<unknown>, signal: AbortSignal | undefined): PlcError | undefined {
@@ -166,7 +166,7 @@ export class Connection {
     return this.#held.length + (this.#attempt?.queued ?? 0)
   }
 
-  #start(call: Call): void {
+  #start(call: Call, now: number): void {
     const expired = this.#expired()
     if (expired !== undefined) this.#lost(expired)
     if (call.onlyOn !== undefined && (this.#supervisor.name !== 'connected' || call.onlyOn !== this.#generation)) {
@@ -174,8 +174,8 @@ export class Connection {
       return
     }
     if (this.#supervisor.name === 'connected' && this.#attempt !== undefined) {
-      this.#attempt.submit(call)
-      this.#attempt.flush()
+      this.#attempt.submit(call, now)
+      this.#attempt.flush(now)
       return
     }
     this.#held.push(call)

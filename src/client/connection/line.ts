@@ -235,8 +235,8 @@ export class Line {
   }
 
   /** Sends it when its turn comes. `flush` afterwards. */
-  submit(call: Call): void {
-    this.#carrier?.session?.submit(call, this.#options.clock.now())
+  submit(call: Call, now: number): void {
+    this.#carrier?.session?.submit(call, now)
   }
 
   /** Gives a call up. `flush` afterwards. @returns whether it had been sent; `undefined` when it is not known here */

@@ -52,12 +52,9 @@ export class DeviceRead {
    * @returns a result for each item, in their order; it rejects only with what is no `PlcError`, which is a bug
    */
   async run(send: SendExchange, now: () => number): Promise<ReadResult[]> {
-    const run = new ReadRun(this.#texts, this.#shape, send, now)
     const [only] = this.#shape.steps
-    if (only !== undefined && this.#shape.steps.length === 1) {
-      await this.#read(only, run)
-      return run.results()
-    }
+    if (only !== undefined && this.#shape.steps.length === 1) return this.#readAlone(only, send, now)
+    const run = new ReadRun(this.#texts, this.#shape, send, now)
     const queue = [...this.#shape.steps].reverse()
     const lane = async () => {
       for (let step = queue.pop(); step !== undefined; step = queue.pop()) await this.#read(step, run)
@@ -67,8 +64,27 @@ export class DeviceRead {
     return run.results()
   }
 
+  /** As most plans are run: nothing waits for anything else, so that it costs as few turns of the queue as can be. */
+  async #readAlone(step: ReadStep, send: SendExchange, now: () => number): Promise<ReadResult[]> {
+    let words: Words
+    try {
+      words = await step.prepared.fetch(send)
+    } catch (error) {
+      const run = new ReadRun(this.#texts, this.#shape, send, now)
+      await this.#settle(step, run.failed(step, error), run)
+      return run.results()
+    }
+    const run = new ReadRun(this.#texts, this.#shape, send, now)
+    run.take(step, words)
+    this.#shape.answered(step)
+    return run.results()
+  }
+
   async #read(step: ReadStep, run: ReadRun): Promise<void> {
-    const outcome = await run.attempt(step)
+    await this.#settle(step, await run.attempt(step), run)
+  }
+
+  async #settle(step: ReadStep, outcome: Leaf['outcome'], run: ReadRun): Promise<void> {
     if (outcome === 'read') this.#shape.answered(step)
     if (!(outcome instanceof EndCodeError)) return
     if (isAboutNoItem(outcome)) {
@@ -156,17 +172,22 @@ class ReadRun {
   async attempt(step: ReadStep, division: Division = {}): Promise<Leaf['outcome']> {
     if (division.lost !== undefined) return this.give(step, division.lost).outcome
     try {
-      this.#take(step, await step.prepared.fetch(this.#send))
+      this.take(step, await step.prepared.fetch(this.#send))
       return 'read'
     } catch (error) {
-      if (error instanceof EndCodeError) return error
-      if (!(error instanceof PlcError)) throw error
-      division.lost = error
-      return this.give(step, error).outcome
+      return this.failed(step, error, division)
     }
   }
 
-  #take(step: ReadStep, words: Words): void {
+  /** The request got no answer that could be taken. */
+  failed(step: ReadStep, error: unknown, division: Division = {}): Leaf['outcome'] {
+    if (error instanceof EndCodeError) return error
+    if (!(error instanceof PlcError)) throw error
+    division.lost = error
+    return this.give(step, error).outcome
+  }
+
+  take(step: ReadStep, words: Words): void {
     const timestamp = this.#now()
     for (const place of step.places) {
       const { item } = place

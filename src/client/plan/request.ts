@@ -94,7 +94,7 @@ export function prepareRead(protocol: PlanProtocol, draft: Draft, options: Addre
         return text(options)
       },
       offsets,
-      fetch: async (send) => wordsOf(await send(exchange)),
+      fetch: (send) => send(exchange).then(wordsOf),
     }
   })
 }
