@@ -36,7 +36,7 @@ export interface Transport {
   /**
    * Sends a piece of the stream, or one datagram. Only between `opened` and `closed`/`close()`; outside it throws a
    * `ConnectionError` with outcome `notSent`, because silently dropped bytes would look like sent ones.
-   * The bytes are not copied: do not change them afterwards.
+   * The bytes are not copied: do not change them afterwards. Nor does a transport change them: a request is sent again from the same bytes.
    */
   send(bytes: Uint8Array): void
   /**
