@@ -126,7 +126,10 @@ class TcpTransport implements Transport {
         buffer,
         callback: (length) => {
           this.#history.answered = true
-          if (this.#state === 'open') this.#handlers?.received(Buffer.from(buffer.subarray(0, length)))
+          if (this.#state !== 'open') return true
+          const bytes = Buffer.allocUnsafe(length)
+          buffer.copy(bytes, 0, 0, length)
+          this.#handlers?.received(bytes)
           return true
         },
       },

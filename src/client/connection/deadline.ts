@@ -4,6 +4,8 @@ import type { Clock } from '../../transport/clock'
 import { type CallOptions, optionProblem } from './call'
 import * as failure from './failure'
 
+const USUAL: CallOptions = {}
+
 /** The absolute end of one call: all its requests and all its waiting share it. */
 export class Deadline {
   readonly #clock: Clock
@@ -14,7 +16,7 @@ export class Deadline {
    * @param usual ms, when the call says no timeout
    * @throws RequestError BAD_OPTION for a timeout or signal that is none
    */
-  constructor(clock: Clock, options: CallOptions = {}, usual: number) {
+  constructor(clock: Clock, options: CallOptions = USUAL, usual: number) {
     const problem = optionProblem(options)
     if (problem !== undefined) throw problem
     this.#clock = clock
@@ -27,7 +29,7 @@ export class Deadline {
     const timeout = this.#end - this.#clock.now()
     if (timeout <= 0) throw failure.notSentInTime(title)
     // Without a caller of its own, all requests of the call are one caller's: the call's.
-    return { caller: this, ...this.#options, timeout }
+    return this.#options === USUAL ? { caller: this, timeout } : { caller: this, ...this.#options, timeout }
   }
 
   /** Waits for the end of something else. Rejects with a `PlcError` when the call ends before it. */

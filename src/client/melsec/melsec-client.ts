@@ -264,7 +264,7 @@ export class MelsecPlcClient implements MelsecClient {
   /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
   #call(options: CallOptions | undefined): OpenCall {
     const { clock, timeout } = this.#settings
-    const deadline = new Deadline(clock, callOptionsOf(options), timeout)
+    const deadline = new Deadline(clock, options && callOptionsOf(options), timeout)
     return this.#turns.open(deadline, (exchange) => {
       this.#permit(exchange.effect, exchange.title)
       return this.#connection.request(exchange, deadline.options(exchange.title))

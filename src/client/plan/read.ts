@@ -74,10 +74,25 @@ export class DeviceRead {
       await this.#settle(step, run.failed(step, error), run)
       return run.results()
     }
+    this.#shape.answered(step)
+    const [place] = step.places
+    if (place !== undefined && this.#texts.length === 1 && this.#shape.partsOf(0) === 1) {
+      return [this.#only(words, place, now())]
+    }
     const run = new ReadRun(this.#texts, this.#shape, send, now)
     run.take(step, words)
-    this.#shape.answered(step)
     return run.results()
+  }
+
+  /** Of the only item: the words are nobody else's, so that they may become its value. */
+  #only(words: Words, place: Place, timestamp: number): ReadResult {
+    const [item = ''] = this.#texts
+    try {
+      return { item, ok: true, value: valueAt(words, place, true), timestamp }
+    } catch (error) {
+      if (!(error instanceof PlcError)) throw error
+      return { item, ok: false, error: about(error, [{ item }]), timestamp }
+    }
   }
 
   async #read(step: ReadStep, run: ReadRun): Promise<void> {

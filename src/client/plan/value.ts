@@ -65,22 +65,32 @@ function wordsOfItem({ type: { name }, format }: ParsedItem): Place['words'] {
   return name === 'UINT' || name === 'WORD' ? 'unsigned' : undefined
 }
 
-/** @throws ProtocolError BAD_FIELD when the words are no value of the type. */
-export function valueAt(words: Words, place: Place): PlcValue | PlcValue[] {
+/**
+ * @param owned nobody else needs the words: an array of all of them may become the value
+ * @throws ProtocolError BAD_FIELD when the words are no value of the type
+ */
+export function valueAt(words: Words, place: Place, owned = false): PlcValue | PlcValue[] {
   const { kind, at, type, format, isArray, count, decode } = place
   if (decode !== undefined) return decode(words, at / 16)
   if (kind === 'bits') return isArray ? bitsAt(words, place) : isSet(words, at)
   if (place.words !== undefined && isArray)
-    return wordsAt(words, at / 16, count, place.words) ?? decodeArray(type, words, at / 16, count, format)
+    return wordsAt(words, at / 16, count, place.words, owned) ?? decodeArray(type, words, at / 16, count, format)
   if (kind === 'values' && place.pitch === place.width) return decodeArray(type, words, at / 16, count, format)
   const gathered = kind === 'values' ? recordsAt(words, place) : digitsAt(words, place)
   return isArray ? decodeArray(type, gathered, 0, count, format) : decodeValue(type, gathered, 0, format)
 }
 
 /** A decoded answer holds nothing but words; copied as a whole they cost a sixth of what each alone would. */
-function wordsAt(words: Words, from: number, count: number, as: 'unsigned' | 'signed'): number[] | undefined {
+function wordsAt(
+  words: Words,
+  from: number,
+  count: number,
+  as: 'unsigned' | 'signed',
+  owned: boolean,
+): number[] | undefined {
   if (!Array.isArray(words) || from + count > words.length) return undefined
-  const values: number[] = words.slice(from, from + count)
+  const isAll = owned && from === 0 && count === words.length
+  const values: number[] = isAll ? words : words.slice(from, from + count)
   if (as === 'unsigned') return values
   for (let at = 0; at < count; at++) {
     const word = values[at] as number
