@@ -26,7 +26,7 @@ const PORT_TRIES = 16
  *
  * The socket is connected: datagrams of other senders do not arrive, and where the PLC's side answers that nothing
  * listens there, the transport ends with CONNECT_FAILED. Empty datagrams carry nothing and are dropped.
- * A new port costs some 30 µs of CPU. Once `renew()` was called, the next port is opened behind each datagram that is
+ * A new port costs some 20 µs of processor time. Once `renew()` was called, the next port is opened behind each datagram that is
  * sent, while its answer is awaited; so the next `renew()` is over at once.
  * @throws RequestError BAD_OPTION
  * @example
