@@ -1,15 +1,14 @@
 // A 1E frame in words. It has no length and no serial number: where an answer ends, only its request tells.
-import { type DataCode, type Declaration, field, type Message, type Named, type Shape } from '../../codec/codec'
+import { type DataCode, field, type Message, type Shape } from '../../codec/codec'
 import { annotate, type Direction, Explainer, type FrameExplanation, type Leaf } from '../../codec/explanation'
 import { aCompatibleCommands } from '../a-compatible/commands'
 import { addressesOf } from '../a-compatible/frame-names'
-import { FORM_XY_OCTAL } from '../device/codec'
 import { mayEndWithZero, WITH_ABNORMAL_CODE } from '../frame/frame-1e'
 import { type ExplainSettings, noteBitUnits, noteUncertainDigits } from './body'
-import { describeFrameValue } from './frame-value'
+import { type FrameCommand, type FrameRequest, frameForm, readFrameData } from './frame-value'
 import { commandText, describeHead, endCodeText } from './head'
 import type { ExplainFrameOptions, Known } from './options'
-import { devicesOf, splitRow, summaryOf } from './values'
+import { summaryOf } from './values'
 
 const { fixed, u16, u8 } = field
 
@@ -18,13 +17,6 @@ const ANSWER = 0x80
 
 const requestHead = { subheader: u8(), pc: u8(), monitoringTimer: u16() } as const satisfies Shape
 const responseHead = { subheader: u8(), endCode: u8() } as const satisfies Shape
-
-type Command = Named<Declaration, string>
-
-interface Request {
-  readonly command: Command
-  readonly message: Message
-}
 
 export function explain1e(bytes: Buffer, known: Known, options: ExplainFrameOptions): FrameExplanation {
   const code = options.code ?? codeOf(bytes)
@@ -47,13 +39,8 @@ function firstByte(bytes: Buffer, code: DataCode): number | undefined {
   return typeof message.subheader === 'number' ? message.subheader : undefined
 }
 
-function commandOf(code: unknown): Command | undefined {
+function commandOf(code: unknown): FrameCommand | undefined {
   return Object.values(aCompatibleCommands).find((command) => command.code === code)
-}
-
-function formOf({ code, profile, asciiXy }: ExplainSettings): number {
-  const octal = asciiXy === undefined ? profile.xyRadix === 8 : asciiXy === 'octal'
-  return code === 'ascii' && octal ? FORM_XY_OCTAL : 0
 }
 
 const nameOf = (direction: Direction, code: DataCode) =>
@@ -65,7 +52,7 @@ function explainRequest(explainer: Explainer, settings: ExplainSettings, total: 
   const command = commandOf(head.subheader)
   const about = { frame: '1E', code, direction: 'request' } as const
   if (command === undefined) return explainUnknown(explainer, nameOf('request', code), about, total)
-  const message = readData(explainer, settings, command.request, command)
+  const message = readFrameData(explainer, settings, command, command.request)
   if (command.name === 'writeBits') takeDummy(explainer, code, message)
   const devices = addressesOf(message).map(({ device }) => device)
   noteUncertainDigits(explainer, settings, devices)
@@ -101,23 +88,6 @@ function describe1e(leaf: Leaf): string | undefined {
   return value < ANSWER
     ? commandText(value, commandOf(value)).slice(2)
     : `${commandText(value, commandOf(value - ANSWER)).slice(2)} answer`
-}
-
-function readData(
-  explainer: Explainer,
-  settings: ExplainSettings,
-  shape: Shape,
-  command: Command,
-  request?: Message,
-): Message {
-  const context = request === undefined ? {} : { context: { shape: command.request, message: request } }
-  return explainer.read(
-    shape,
-    (leaf) => describeFrameValue(leaf, settings),
-    { form: formOf(settings), ...context },
-    (row, bytes, message) =>
-      splitRow(row, bytes, settings, devicesOf(row.name, { shape, message, ...context }, settings)),
-  )
 }
 
 /** Some PLCs put a dummy character behind an odd number of bits (FX3U-ENET-ADP user's manual 7.5). */
@@ -172,7 +142,7 @@ function explainResponse(
     explainer.take(explainer.remaining, { name: 'data', kind: 'bytes', text: 'data without its request' })
     return explainer.end({ ...about, title: name }, total)
   }
-  const message = readData(explainer, settings, asked.command.response, asked.command, asked.message)
+  const message = readFrameData(explainer, settings, asked.command, asked.command.response, asked.message)
   if (asked.command.name === 'readBits') takeDummy(explainer, code, message)
   explainZeroBehind(explainer, asked.command.code, head.endCode)
   const summary = summaryOf(asked.command, asked.message, settings)
@@ -180,11 +150,11 @@ function explainResponse(
   return end(explainer, { ...about, title: `${name}: ${title}`, command: asked.command.name }, total)
 }
 
-function requestIn(bytes: Buffer, settings: ExplainSettings): Request | undefined {
+function requestIn(bytes: Buffer, settings: ExplainSettings): FrameRequest | undefined {
   const { code } = settings
   const head = annotate(requestHead, bytes, { code })
   const command = commandOf(head.message.subheader)
   if (head.fault !== undefined || command === undefined) return undefined
-  const { message, fault } = annotate(command.request, bytes.subarray(head.used), { code, form: formOf(settings) })
+  const { message, fault } = annotate(command.request, bytes.subarray(head.used), { code, form: frameForm(settings) })
   return fault === undefined ? { command, message } : undefined
 }
