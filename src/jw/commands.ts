@@ -1,5 +1,5 @@
 import { declare, field } from '../codec/codec'
-import { jwAddress } from './operand'
+import { jwAddress } from './address'
 
 const { bytes, countOf, echo, u16, value } = field
 const manual = 'JW300 option unit manual, JW-255CM commands'

@@ -14,8 +14,8 @@ import {
   showBytes,
 } from '../codec/explanation'
 import type { NamedCommand } from '../link/link'
+import { type JwAddress, jwAddress } from './address'
 import { jwCommands } from './commands'
-import { type JwAddress, jwAddress } from './operand'
 
 /** What is known of a JW message. */
 export interface ExplainJwOptions {
@@ -78,12 +78,12 @@ function describeJw({ name, field: of, value }: Leaf): string | undefined {
 }
 
 function isAddress(value: unknown): value is JwAddress {
-  return typeof value === 'object' && value !== null && 'segment' in value
+  return typeof value === 'object' && value !== null && 'file' in value
 }
 
 /** As a JW numbers them: files in hexadecimal, the bytes of a file in octal. */
-function addressText({ segment, address, extended }: JwAddress): string {
-  return `file ${hex(segment, 2)}H, byte ${address.toString(8).padStart(6, '0')} octal${extended === true ? ' (extended)' : ''}`
+function addressText({ file, address, extended }: JwAddress): string {
+  return `file ${hex(file, 2)}H, byte ${address.toString(8).padStart(6, '0')} octal${extended === true ? ' (extended)' : ''}`
 }
 
 function explainRequest(explainer: Explainer, total: number): FrameExplanation {

@@ -2,7 +2,7 @@
 import fc from 'fast-check'
 import type { Context, Message, Shape } from '../../src/codec/codec'
 import { isVisible, type VisibleField } from '../../src/codec/field'
-import { jwAddress } from '../../src/jw/operand'
+import { jwAddress } from '../../src/jw/address'
 import { aCompatibleDevice } from '../../src/melsec/a-compatible/device'
 import { deviceAddress } from '../../src/melsec/device/codec'
 import { setReset } from '../../src/melsec/device/set-reset'
@@ -43,8 +43,8 @@ const VALUES: ReadonlyMap<object, fc.Arbitrary<unknown>> = new Map<object, fc.Ar
   [
     jwAddress,
     fc.oneof(
-      fc.record({ segment: fc.integer({ min: 0, max: 0x80 }), address: number }),
-      fc.record({ segment: fc.integer({ min: 0, max: 1 }), address: number, extended: fc.constant(true) }),
+      fc.record({ file: fc.integer({ min: 0, max: 0x80 }), address: number }),
+      fc.record({ file: fc.integer({ min: 0, max: 1 }), address: number, extended: fc.constant(true) }),
     ),
   ],
 ])

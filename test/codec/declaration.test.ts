@@ -8,8 +8,8 @@ import {
   type MessageOf,
   type Shape,
 } from '../../src/codec/codec'
+import type { JwAddress } from '../../src/jw/address'
 import { type JwCommands, jwCommands } from '../../src/jw/commands'
-import type { JwAddress } from '../../src/jw/operand'
 import { type ACompatibleCommands, aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { type Commands, commands } from '../../src/melsec/commands/commands'
 import type { DeviceAddress } from '../../src/melsec/device/device'

@@ -164,7 +164,7 @@ describe('what is left out', () => {
     const head = { device: 'D', number: 0 }
     const plain = write(commands.writeWords.request, { head, values: [1, 0xffff] })
     expect(write(commands.writeWords.request, { head, values: Uint16Array.of(1, 0xffff) })).toEqual(plain)
-    const address = { segment: 0, address: 0 }
+    const address = { file: 0, address: 0 }
     const data = write(jwCommands.writeDataMemory.request, { head: address, data: [1, 2] })
     expect(write(jwCommands.writeDataMemory.request, { head: address, data: Uint8Array.of(1, 2) })).toEqual(data)
   })

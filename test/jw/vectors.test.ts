@@ -71,7 +71,7 @@ describe('JW messages', () => {
   })
 
   test.each(vectors.filter(({ result }) => result !== undefined && result !== 0))('$id is a refusal', (vector) => {
-    const message = { head: { segment: 0, address: 0o4000 }, data: [0x34, 0x12] }
+    const message = { head: { file: 0, address: 0o4000 }, data: [0x34, 0x12] }
     const exchange = protocol.exchange(jwCommands.writeDataMemory, { ...message, data: Buffer.from(message.data) })
     const frame = { head: {}, serial: undefined, endCode: vector.result ?? 0, body: Buffer.alloc(0) }
     expect(() => exchange.decode(frame)).toThrow(EndCodeError)

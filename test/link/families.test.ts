@@ -6,8 +6,8 @@
 import { describe, expect, test } from '@jest/globals'
 import type { Message } from '../../src/codec/codec'
 import { EndCodeError, type PlcError, ProtocolError } from '../../src/errors'
+import type { JwAddress } from '../../src/jw/address'
 import { jwCommands } from '../../src/jw/commands'
-import type { JwAddress } from '../../src/jw/operand'
 import { jwProtocol } from '../../src/jw/protocol'
 import type { Head } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
@@ -302,8 +302,8 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
     const jw = jwProtocol({ header })
     /** A PLC with 64 KB at each segment, addressed in bytes. */
     function plcOf(memory = new Map<string, Buffer>()): Plc<{ command: number }> {
-      const segmentOf = ({ segment, extended }: JwAddress) => {
-        const key = `${segment} ${extended === true}`
+      const segmentOf = ({ file, extended }: JwAddress) => {
+        const key = `${file} ${extended === true}`
         const bytes = memory.get(key) ?? Buffer.alloc(0x10000)
         memory.set(key, bytes)
         return bytes
@@ -324,8 +324,8 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
     }
 
     test.each<[string, JwAddress]>([
-      ['basic', { segment: 8, address: 0o4000 }],
-      ['extended', { segment: 1, address: 0x1234, extended: true }],
+      ['basic', { file: 8, address: 0o4000 }],
+      ['extended', { file: 1, address: 0x1234, extended: true }],
     ])('commands 34 and 24, %s form: writes, and reads it back', (form, head) => {
       const line = new Line(jw.framing, plcOf(), wire)
       const data = Buffer.from('00ff45470010', 'hex')
@@ -346,7 +346,7 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
     test('a result code is a refusal, and the connection lives', () => {
       const line = new Line(jw.framing, plcOf(), wire)
       const error = line.fails(
-        jw.exchange(jwCommands.readDataMemory, { head: { segment: 0, address: 0xffff }, length: 2 }),
+        jw.exchange(jwCommands.readDataMemory, { head: { file: 0, address: 0xffff }, length: 2 }),
       )
       expect(error).toMatchObject({
         name: 'EndCodeError',
@@ -354,15 +354,13 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
         outcome: 'refused',
         command: 'Read data memory',
       })
-      expect(line.ask(jw.exchange(jwCommands.readDataMemory, { head: { segment: 0, address: 0 }, length: 1 }))).toEqual(
-        {
-          data: Buffer.of(0),
-        },
-      )
+      expect(line.ask(jw.exchange(jwCommands.readDataMemory, { head: { file: 0, address: 0 }, length: 1 }))).toEqual({
+        data: Buffer.of(0),
+      })
     })
 
     test('an answer about another address or another length is not taken', () => {
-      const read = jw.exchange(jwCommands.readDataMemory, { head: { segment: 0, address: 0x0102 }, length: 2 })
+      const read = jw.exchange(jwCommands.readDataMemory, { head: { file: 0, address: 0x0102 }, length: 2 })
       for (const offset of [4, 5, 6, 7]) {
         const line = new Line(jw.framing, plcOf(), wire)
         line.damage = (answer) => {
@@ -379,7 +377,7 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
       const line = new Line(jw.framing, plcOf(), wire)
       line.damage = () => jw.framing.response.write({ command: 0x34 }, 0, 0, Buffer.alloc(0))
       const error: PlcError = line.fails(
-        jw.exchange(jwCommands.readDataMemory, { head: { segment: 0, address: 0 }, length: 500 }),
+        jw.exchange(jwCommands.readDataMemory, { head: { file: 0, address: 0 }, length: 500 }),
       )
       expect(error.code).toBe('ECHO_MISMATCH')
       expect(error.message).toContain('to command 34H, asked was 24H')
@@ -387,7 +385,7 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
 
     test('a request is what it was when it was made, whatever becomes of the message', () => {
       const line = new Line(jw.framing, plcOf(), wire)
-      const message = { head: { segment: 0, address: -0 }, length: 4 }
+      const message = { head: { file: 0, address: -0 }, length: 4 }
       const exchange = jw.exchange(jwCommands.readDataMemory, message)
       message.length = 2
       message.head.address = 7

@@ -76,7 +76,7 @@ describe('a refusal', () => {
     [0x0f, 'unknown', 'unknown'],
   ])('of a JW with %i is about its %s and %s, and has no text of MELSEC', (endCode, about, outcome) => {
     const { writeDataMemory } = jwCommands
-    const message = { head: { segment: 0, address: 0o4000 }, data: Buffer.from([1, 2]) }
+    const message = { head: { file: 0, address: 0o4000 }, data: Buffer.from([1, 2]) }
     const error = refused(jwProtocol().exchange(writeDataMemory, message), { command: writeDataMemory.code }, endCode)
     expect(error).toMatchObject({ family: 'jw', about, outcome, commandName: 'writeDataMemory' })
     expect([error.meaning, error.remedy]).toEqual([undefined, undefined])

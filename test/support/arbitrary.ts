@@ -2,7 +2,7 @@
 import fc from 'fast-check'
 import type { Context, Field, Message, Shape } from '../../src/codec/codec'
 import { isVisible, type VisibleField } from '../../src/codec/field'
-import { jwAddress } from '../../src/jw/operand'
+import { jwAddress } from '../../src/jw/address'
 import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible/device'
 import { deviceAddress, FORM_EXTENDED, FORM_XY_OCTAL, formProblem } from '../../src/melsec/device/codec'
 import { devices } from '../../src/melsec/device/device'
@@ -83,9 +83,9 @@ const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
     jwAddress,
     () =>
       fc.oneof(
-        fc.record({ segment: fc.nat(0x80), address: fc.nat(0xffff) }),
-        fc.record({ segment: fc.constant(0), address: fc.nat(0xffff), extended: fc.constant(true) }),
-        fc.record({ segment: fc.constant(1), address: fc.nat(0x7fffff), extended: fc.constant(true) }),
+        fc.record({ file: fc.nat(0x80), address: fc.nat(0xffff) }),
+        fc.record({ file: fc.constant(0), address: fc.nat(0xffff), extended: fc.constant(true) }),
+        fc.record({ file: fc.constant(1), address: fc.nat(0x7fffff), extended: fc.constant(true) }),
       ),
   ],
 ])

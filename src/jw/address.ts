@@ -1,0 +1,82 @@
+import type { Reader, ValueCodec, Writer } from '../codec/codec'
+import { RequestError } from '../errors'
+
+/**
+ * Where a byte lives in a Sharp JW: a file number and a byte address in the file. `extended`: the form that only the JW300
+ * knows, with four bytes of address (JW300 option unit manual, "Memory addresses of the CU"). The basic form of file
+ * 1 + n is the 64 KB page n of extended file 1, so both forms of files 0 and 1 below 10000H name the same byte.
+ */
+export interface JwAddress {
+  /** File number (SEG): basic 00-80H; extended 0 or 1. */
+  readonly file: number
+  /** Byte address (ADR): basic 0-FFFFH; extended file 0 0-FFFFH, file 1 0-7FFFFFH. */
+  readonly address: number
+  readonly extended?: true
+}
+
+/** An address where a command has room for the extended form only. */
+export interface JwExtendedAddress extends JwAddress {
+  readonly extended: true
+}
+
+const EXTENDED = 0xff
+const LAST = { basicFile: 0x80, basic: 0xffff, extended: [0xffff, 0x7fffff] } as const
+
+/** Basic: SEG ADRL ADRH. Extended: FF SEG ADRLL ADRLH ADRHL ADRHH. The first byte tells which. */
+export const jwAddress: ValueCodec<JwAddress> = {
+  name: 'address',
+  takes:
+    'an object with file (basic 0 to 128; extended 0 or 1), address (of a byte) and, for the extended form, extended: true',
+  example: { file: 0, address: 0o4000 },
+  write(writer, value) {
+    check(value)
+    if (value.extended === true) {
+      writer.uint(EXTENDED, 1)
+      writeExtended(writer, value)
+      return
+    }
+    writer.uint(value.file, 1)
+    writer.uint(value.address, 2)
+  },
+  read(reader) {
+    const first = reader.uint(1)
+    if (first === EXTENDED) return readExtended(reader)
+    return checked(reader, { file: first, address: reader.uint(2) })
+  },
+  size: (ascii, _form, value) => (value?.extended === true ? 6 : 3) * (ascii ? 2 : 1),
+}
+
+function writeExtended(writer: Writer, { file, address }: JwAddress): void {
+  writer.uint(file, 1)
+  writer.uint(address, 4)
+}
+
+function readExtended(reader: Reader): JwExtendedAddress {
+  return checked(reader, { file: reader.uint(1), address: reader.uint(4), extended: true })
+}
+
+function checked<A extends JwAddress>(reader: Reader, address: A): A {
+  const last = lastAddress(address)
+  if (last === undefined || address.address > last) reader.fail('BAD_FIELD', 'an address that does not exist')
+  return address
+}
+
+function check(value: JwAddress): void {
+  if (value.extended !== undefined && value.extended !== true) {
+    throw new RequestError('BAD_MESSAGE', `extended is true or left out, not ${String(value.extended)}`)
+  }
+  const last = lastAddress(value)
+  if (last === undefined) throw outOfRange('file', value.file)
+  if (!Number.isInteger(value.address) || value.address < 0 || value.address > last)
+    throw outOfRange('address', value.address)
+}
+
+/** Last byte address of the file, `undefined` when there is no such file. */
+function lastAddress({ file, extended }: Pick<JwAddress, 'file' | 'extended'>): number | undefined {
+  if (extended === true) return LAST.extended[file]
+  return Number.isInteger(file) && file >= 0 && file <= LAST.basicFile ? LAST.basic : undefined
+}
+
+function outOfRange(what: string, found: number): RequestError {
+  return new RequestError('OUT_OF_RANGE', `${what} ${found} does not exist in a Sharp JW address`)
+}
