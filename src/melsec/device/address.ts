@@ -18,6 +18,7 @@
  * Case, leading zeros and spaces around do not matter; `/` and the yen sign (the same key) stand for `\` as well.
  */
 import { hex } from '../../basics/hex'
+import { shortened, typedAddress } from '../../basics/typed-text'
 import { RequestError, type RequestErrorCode } from '../../errors'
 import { addressProblem } from './access'
 import { hintFor, otherSpelling } from './address-hint'
@@ -88,7 +89,7 @@ function isDevice(text: string, options: AddressOptions): boolean {
 }
 
 function parsedDevice(text: string, options: AddressOptions): ParsedDevice {
-  const clean = cleaned(text)
+  const clean = typedAddress(text, 'D100', FOREIGN)
   const fail: Fail = (message, code = 'BAD_ADDRESS') => {
     throw new RequestError(code, `${JSON.stringify(shortened(text))}: ${message}${hintFor(clean)}`)
   }
@@ -107,6 +108,9 @@ function parsedDevice(text: string, options: AddressOptions): ParsedDevice {
   return parsed
 }
 
+/** The yen sign is the key of `\`. */
+const FOREIGN = /[^\x21-\x7e¥]/
+
 type Fail = (message: string, code?: RequestErrorCode) => never
 type Place = Pick<DeviceAddress, 'extension' | 'extensionIndex'>
 
@@ -114,35 +118,6 @@ const NO_PLACE: Place = {}
 
 function partsOf(text: string): readonly string[] {
   return /[\\/¥]/.test(text) ? text.split(/[\\/¥]/) : [text]
-}
-
-function cleaned(text: string): string {
-  if (typeof text !== 'string') {
-    throw new RequestError(
-      'BAD_ADDRESS',
-      `An address is a text such as D100, not ${JSON.stringify(text) ?? typeof text}.`,
-    )
-  }
-  if (/[\u3000\uff01-\uffee]/.test(text)) {
-    const half = shortened(text.normalize('NFKC').trim())
-    throw new RequestError(
-      'BAD_ADDRESS',
-      `${JSON.stringify(shortened(text))} has full-width characters: write ${half} in half-width ones.`,
-    )
-  }
-  const trimmed = text.trim()
-  // Before upper-casing: some letters of other scripts turn into ASCII ones by it.
-  if (/[^\x21-\x7e¥]/.test(trimmed)) {
-    throw new RequestError(
-      'BAD_ADDRESS',
-      `${JSON.stringify(shortened(text))} has a space or a letter that is not of an address.`,
-    )
-  }
-  return trimmed.toUpperCase()
-}
-
-function shortened(text: string): string {
-  return text.length <= 64 ? text : `${text.slice(0, 64)}...`
 }
 
 /** `J1`, `U3`, `U3E0`, `J1Z0`, `U3Z1`. */
