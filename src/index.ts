@@ -19,7 +19,6 @@ export type {
 } from './client/file/files'
 export type { WriteMode } from './client/file/write'
 export { headOfError, type ItemResult, nameResults } from './client/item/about'
-export type { Item, ItemOptions } from './client/item/item'
 export type {
   ItemInput,
   ItemInputs,
@@ -35,6 +34,7 @@ export type {
   WriteValue,
   WriteValues,
 } from './client/item/item-value'
+export type { Item, ItemOptions } from './client/item/parts'
 export type { ItemExplanation, LabelExplanation } from './client/label/explain'
 export type {
   LabelFormat,

@@ -3,14 +3,13 @@
 
 export {
   formatItem,
-  type Item,
-  type ItemOptions,
   type ItemParseOptions,
   type ParsedItem,
   parseItem,
   type RefusedItem,
   tryParseItem,
 } from '../client/item/item'
+export type { Item, ItemOptions } from '../client/item/parts'
 export { RequestError, type RequestErrorCode } from '../errors'
 export { type AddressOptions, formatDevice, type ParsedDevice, parseDevice } from '../melsec/device/address'
 export {

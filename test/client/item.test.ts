@@ -1,6 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { formatItem, type Item, type ParsedItem, parseItem, tryParseItem } from '../../src/client/item/item'
+import { formatItem, type ParsedItem, parseItem, tryParseItem } from '../../src/client/item/item'
+import type { Item } from '../../src/client/item/parts'
 import { RequestError } from '../../src/errors'
 import { devices } from '../../src/melsec/device/device'
 

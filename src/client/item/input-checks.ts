@@ -6,7 +6,7 @@ import { effects } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { Command } from '../../melsec/commands/command'
 import { FORM_BITS } from '../../melsec/device/form'
-import { badAddress, type Item } from './item'
+import { badAddress, type Item } from './parts'
 
 export function isItem(given: unknown): given is Item {
   return (

@@ -7,7 +7,8 @@
  */
 import type { DeviceName, DeviceTable } from '../../melsec/device/device'
 import type { TypeName, TypeNamed } from '../../value/value'
-import type { DefaultTypes, Item, ItemOptions } from './item'
+import type { DefaultTypes } from './item'
+import type { Item, ItemOptions } from './parts'
 
 /**
  * One value, or an array. `element`: of an array of a label; read it is one value, written it may be many.

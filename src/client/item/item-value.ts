@@ -1,8 +1,8 @@
 // Values of items: what is read, what became of it, and what may be written.
 import type { PlcError } from '../../errors'
 import type { PlcValue, TypeToValue, TypeToWritten } from '../../value/value'
-import type { Item } from './item'
 import type { FactsOf, ItemFacts } from './item-text'
+import type { Item } from './parts'
 
 /** A value read from an item without, or with, a count or range. */
 export type ReadValue = PlcValue | PlcValue[]

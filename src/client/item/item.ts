@@ -12,8 +12,7 @@
  * | `K4M0` `K8M0:REAL` `K4M0[3]`      | 4 bits per digit: INT up to K4, DINT from K5, REAL and TIME with K8   |
  */
 import { hex } from '../../basics/hex'
-import { show } from '../../basics/show'
-import { RequestError, type RequestErrorCode } from '../../errors'
+import { RequestError } from '../../errors'
 import {
   type AddressOptions,
   formatDevice,
@@ -23,24 +22,23 @@ import {
 } from '../../melsec/device/address'
 import { deviceInfo, LAST_NUMBER } from '../../melsec/device/device'
 // Not by the public names of the room: its conversions need Node.js, and items are checked in browsers, too.
-import { checkFormat, type ValueFormat } from '../../value/format'
+import type { ValueFormat } from '../../value/format'
 import { formatType, parseType, type TypeName, typeNames, type ValueType, valueTypes, wordsOf } from '../../value/type'
 import { otherNotation } from './notation'
-
-/** An item with options of its own; what is left out is the client's. */
-export interface ItemOptions extends ValueFormat {
-  /** Any text an item can be, e.g. `D100`, `D100:REAL[10]`, `M0..M15`. */
-  readonly address: string
-  /** e.g. `REAL`, when it is not in the address. */
-  readonly type?: string
-  /** Number of values of an array, when it is not in the address. */
-  readonly count?: number
-}
-
-/**
- * What a user reads or writes: a text such as `D100:REAL`, or an object with such an address and options of its own.
- */
-export type Item = string | ItemOptions
+import {
+  checkedItem,
+  checkValues,
+  counted,
+  type Fail,
+  formatOf,
+  type Item,
+  type ItemOptions,
+  type ItemStyle,
+  onlyOne,
+  splitText,
+  typeOf,
+  valuesIn,
+} from './parts'
 
 /** An item that can be read or written, as plain data. At most one of `bit` and `digits` is there. */
 export interface ParsedItem extends ParsedDevice {
@@ -67,9 +65,6 @@ export interface ItemParseOptions extends AddressOptions {
   /** Word order, encoding and so on of items that do not say their own. */
   readonly format?: ValueFormat
 }
-
-/** More values than this in one item are a mistake: no device has as many points. */
-const MOST_VALUES = 1 << 20
 
 /**
  * @throws RequestError BAD_ADDRESS, BAD_TYPE, OUT_OF_RANGE or BAD_OPTION; the message names the item and says what to write.
@@ -104,10 +99,10 @@ function parsedItem(item: Item, given: ItemOptions, options: ItemParseOptions): 
   const fail: Fail = (code, message) => {
     throw new RequestError(code, `${JSON.stringify(given.address)}: ${message}`, given.address)
   }
-  const parts = splitText(given.address, fail)
+  const parts = splitText(given.address, STYLE, fail)
   const device = parseDevice(parts.first, options)
   const typeText = onlyOne('type', parts.type, given.type, fail)
-  const type = typeText === undefined ? defaultType(device) : typeOf(typeText, fail)
+  const type = typeText === undefined ? defaultType(device) : typeOf(typeText, parseType, fail)
   const problem = typeProblem(device, type)
   if (problem !== undefined) fail('BAD_TYPE', problem)
   const ranged = parts.last === undefined ? undefined : rangeCount(device, parseDevice(parts.last, options), type, fail)
@@ -122,8 +117,9 @@ function parsedItem(item: Item, given: ItemOptions, options: ItemParseOptions): 
   return { text, ...device, type, ...counted(count), format }
 }
 
-function counted(count: number | undefined): Pick<ParsedItem, 'count'> {
-  return count === undefined ? {} : { count }
+const STYLE: ItemStyle = {
+  typed: /^([^:]*)(?::(.*))?$/s,
+  examples: { array: 'D100:REAL[10]', comma: 'D100,10', counted: 'D100[10]', range: 'M0..M15' },
 }
 
 /** As `parseItem`, with the error instead of the item: for lists in which one bad item must not spoil the others. */
@@ -157,97 +153,6 @@ export function defaultType(device: ParsedDevice): ValueType {
 const DEFAULT_TYPES = { bit: 'BOOL', word: 'INT', doubleWord: 'DINT' } as const
 /** Type of the values of a device, by its unit. */
 export type DefaultTypes = typeof DEFAULT_TYPES
-
-type Fail = (code: RequestErrorCode, message: string) => never
-
-const ITEM_FIELDS = ['address', 'type', 'count', 'wordOrder', 'byteOrder', 'encoding', 'trimSpaces'] as const
-
-/** An item whose address is no text. */
-export function badAddress(address: unknown): RequestError {
-  const message = `The address of an item is a text, e.g. { address: 'D100', type: 'REAL' }, not ${show(address)}.`
-  return new RequestError('BAD_ADDRESS', message, 'address')
-}
-
-/** An item as an object. @throws RequestError BAD_ADDRESS when it is none, BAD_OPTION for a field that no item has */
-export function checkedItem(item: Item): ItemOptions {
-  if (typeof item === 'string') return { address: item }
-  if (typeof item === 'object' && item !== null && 'address' in item && typeof item.address !== 'string') {
-    throw badAddress(item.address)
-  }
-  if (typeof item !== 'object' || item === null || typeof item.address !== 'string') {
-    throw new RequestError('BAD_ADDRESS', 'An item is a text such as D100:REAL, or an object with such an address.')
-  }
-  const known: readonly string[] = ITEM_FIELDS
-  const unknown = Object.keys(item).find((name) => !known.includes(name))
-  if (unknown === undefined) return item
-  const list = ITEM_FIELDS.join(', ')
-  throw new RequestError(
-    'BAD_OPTION',
-    `${item.address}: an item has no ${JSON.stringify(unknown)}. It has ${list}. If address is the name of an item among others, use readEach() or readValues().`,
-  )
-}
-
-interface Parts {
-  readonly first: string
-  readonly last?: string
-  readonly type?: string
-  readonly count?: number
-}
-
-/** Says that a text is the name of a label, whatever it looks like. */
-export const LABEL_PREFIX = /^\s*label:/i
-
-function splitText(text: string, fail: Fail): Parts {
-  if (ALONE.test(text)) return { first: text }
-  if (LABEL_PREFIX.test(text)) fail('UNSUPPORTED', 'a label is no device: a client of a PLC with labels takes it.')
-  const [, device = '', type] = /^([^:]*)(?::(.*))?$/s.exec(text) ?? []
-  const [, counted = '', digits] = /^(.*?)(?:\[\s*(\d+)\s*\])?$/s.exec(type ?? device) ?? []
-  const [, before, points] = type === undefined && digits === undefined ? (COUNTED.exec(device) ?? []) : []
-  if (before !== undefined) return { first: before, count: Number(points) }
-  const area = type === undefined ? counted : device
-  if (area.includes('[')) {
-    fail('BAD_ADDRESS', 'the number of values stands in brackets at the end, behind the type, e.g. D100:REAL[10].')
-  }
-  if (area.includes(',')) {
-    fail('BAD_ADDRESS', 'behind a comma stands how many values, a whole number, e.g. D100,10, which is D100[10].')
-  }
-  const [first = '', last, more] = area.split('..')
-  if (more !== undefined) fail('BAD_ADDRESS', 'a range has two ends, e.g. M0..M15.')
-  if (last?.trim() === '') fail('BAD_ADDRESS', 'the end of the range is missing, e.g. M0..M15.')
-  return {
-    first,
-    ...(last === undefined ? {} : { last }),
-    ...(type === undefined ? {} : { type: counted }),
-    ...(digits === undefined ? {} : { count: Number(digits) }),
-  }
-}
-
-/** A device and nothing behind it. */
-const ALONE = /^[^:,.[\]]*$/
-
-/** A count behind a comma, as other drivers have it. Behind the bit of a word it may be another bit. */
-const COUNTED = /^([^.,]+),\s*(0|[1-9]\d*)\s*$/
-
-function typeOf(text: string, fail: Fail): ValueType {
-  try {
-    return parseType(text)
-  } catch (error) {
-    if (!(error instanceof RequestError)) throw error
-    return fail(error.code, `${error.message}.`)
-  }
-}
-
-function onlyOne<T extends string | number>(
-  what: string,
-  inText: T | undefined,
-  given: T | undefined,
-  fail: Fail,
-): T | undefined {
-  if (inText !== undefined && given !== undefined && inText !== given) {
-    fail('BAD_OPTION', `the ${what} is given twice, as ${inText} and as ${given}: leave one out.`)
-  }
-  return inText ?? given
-}
 
 /** Why a device has no values of a type, and what to write instead. */
 function typeProblem({ address, bit, digits }: ParsedDevice, type: ValueType): string | undefined {
@@ -305,14 +210,7 @@ function rangeCount(first: ParsedDevice, last: ParsedDevice, type: ValueType, fa
   }
   const size = sizeOf(first, type)
   const points = positionOf(last) + (last.digits === undefined ? 1 : 4 * last.digits) - positionOf(first)
-  if (points <= 0) fail('BAD_ADDRESS', 'the range ends before it starts: write the lower number first.')
-  if (points % size !== 0) {
-    fail(
-      'BAD_ADDRESS',
-      `the range has ${points} points, and one ${formatType(type)} takes ${size}: give a count instead, e.g. [${Math.ceil(points / size)}].`,
-    )
-  }
-  return points / size
+  return valuesIn(points, size, formatType(type), fail)
 }
 
 function samePlace(a: ParsedDevice, b: ParsedDevice): boolean {
@@ -322,9 +220,7 @@ function samePlace(a: ParsedDevice, b: ParsedDevice): boolean {
 }
 
 function checkCount(count: number, { address }: ParsedDevice, fail: Fail): void {
-  if (!Number.isInteger(count) || count < 1 || count > MOST_VALUES) {
-    fail('OUT_OF_RANGE', `the number of values is a whole number from 1 to ${MOST_VALUES}, not ${count}.`)
-  }
+  checkValues(count, fail)
   if (address.indirect === true) {
     fail('UNSUPPORTED', '@ reaches one value only, because the address stands in the PLC: leave the count out.')
   }
@@ -336,20 +232,4 @@ function checkEnd(count: number, device: ParsedDevice, type: ValueType, fail: Fa
   const numbers = bit === undefined ? points : Math.ceil((bit + points) / 16)
   if (address.indirect === true || address.number + numbers - 1 <= LAST_NUMBER) return
   fail('OUT_OF_RANGE', 'it ends behind the last device number there can be.')
-}
-
-function formatOf({ wordOrder, byteOrder, encoding, trimSpaces }: ItemOptions, usual: ValueFormat): ValueFormat {
-  const isUsual =
-    wordOrder === undefined && byteOrder === undefined && encoding === undefined && trimSpaces === undefined
-  const format: ValueFormat = isUsual
-    ? usual
-    : {
-        ...usual,
-        ...(wordOrder === undefined ? {} : { wordOrder }),
-        ...(byteOrder === undefined ? {} : { byteOrder }),
-        ...(encoding === undefined ? {} : { encoding }),
-        ...(trimSpaces === undefined ? {} : { trimSpaces }),
-      }
-  checkFormat(format)
-  return format
 }

@@ -1,6 +1,7 @@
 // X and Y of a PLC nobody knows: refused where octal and hexadecimal mean different inputs and outputs.
 import { RequestError } from '../../errors'
-import { type Item, type ParsedItem, tryParseItem } from './item'
+import { type ParsedItem, tryParseItem } from './item'
+import type { Item } from './parts'
 
 /**
  * Only the profile tells whether X10 is the 8th or the 16th input, and a wrong guess switches another output.

@@ -10,7 +10,8 @@ import { shown } from '../../basics/show'
 import { RequestError } from '../../errors'
 import { isLabelName, isPlainLabel } from '../../melsec/label/plain-label'
 import { doubtOf, lackOf, type Profile } from '../../melsec/profiles/profile'
-import { checkedItem, type Item, type ItemOptions, LABEL_PREFIX, type ParsedItem, type RefusedItem } from '../item/item'
+import type { ParsedItem, RefusedItem } from '../item/item'
+import { checkedItem, type Item, type ItemOptions, LABEL_PREFIX } from '../item/parts'
 import { type AskedLabel, askedLabel } from './item'
 
 /** An item that is a label. */

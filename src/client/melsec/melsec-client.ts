@@ -19,7 +19,6 @@ import { Tracer } from '../connection/trace'
 import { FileAccess, type Files } from '../file/files'
 import { nameResults } from '../item/about'
 import { checkRequest, isItem, isList, namesOf, namesOfItems } from '../item/input-checks'
-import type { Item } from '../item/item'
 import type {
   ItemInput,
   ItemInputs,
@@ -31,6 +30,7 @@ import type {
   WriteValue,
   WriteValues,
 } from '../item/item-value'
+import type { Item } from '../item/parts'
 import { byName, entriesOf, plainValue } from '../item/plain-values'
 import { checkAllWritten } from '../item/write-outcome'
 import type { ItemExplanation } from '../label/explain'

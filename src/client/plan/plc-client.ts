@@ -2,8 +2,8 @@
 import type { CallOptions } from '../connection/call'
 import type { ConnectionState } from '../connection/connection-options'
 import type { Statistics } from '../connection/statistics'
-import type { Item } from '../item/item'
 import type { ItemInput, ItemInputs, ItemResults, Items, ItemValue, ItemValues, WriteEntries } from '../item/item-value'
+import type { Item } from '../item/parts'
 import type { ReadPlan, WritePlan } from './plans'
 import type { WriteCallOptions, WriteOptions, WriteResult } from './write'
 
