@@ -11,7 +11,8 @@ import type { Clock } from '../transport/clock'
 import type { ServerConnection } from '../transport/transport'
 import { type AnyHead, anyFrame } from './any-frame'
 import { routeRefusal } from './check'
-import type { FaultSubject, Faults } from './faults'
+import { type Delivered, Delivery, type HeldAnswers, NOTHING } from './delivery'
+import type { Faults } from './faults'
 import type { HandlerCall } from './handler'
 import { unaskedHead } from './on-demand'
 import type { Answer, Plc } from './plc'
@@ -39,9 +40,6 @@ export interface RequestEvent {
   readonly endCode: number | undefined
 }
 
-/** Answers that the fault `late` holds back. Over UDP one box for the port: the next request may come from another. */
-export type HeldAnswers = { readonly until: 'request' | 'answer'; readonly send: () => void }[]
-
 /** What the connections of one simulated PLC share. */
 export interface Shared {
   readonly plc: Plc
@@ -59,15 +57,9 @@ export interface Shared {
   readonly password: PortPassword
 }
 
-interface Work extends FaultSubject {
+interface Work extends Delivered {
   readonly received: Received
-  /** Its answer is on the wire: too late to take it back. */
-  sending: boolean
 }
-
-const NOTHING: readonly Step[] = []
-/** ms for bytes to arrive before a reset, which would lose them. */
-const ARRIVAL = 5
 
 export class SimulatedConnection {
   /** Milliseconds since 1970. */
@@ -78,7 +70,8 @@ export class SimulatedConnection {
   readonly #responder: Responder<AnyHead>
   readonly #sequence: Sequence<Work>
   readonly #held: HeldAnswers
-  #merging: Buffer[] = []
+  readonly #delivery: Delivery
+  readonly #noises = new Set<() => void>()
   #requests = 0
   readonly #framing: Framing<AnyHead>
   /** Of the last request. */
@@ -109,6 +102,18 @@ export class SimulatedConnection {
       if (kind === 'datagram') datagramBuffer.used += change
     })
     this.#held = kind === 'datagram' ? shared.heldDatagrams : []
+    this.#delivery = new Delivery({
+      faults: shared.faults,
+      held: this.#held,
+      joined: kind === 'stream',
+      send: (bytes) => this.#send(bytes),
+      end: (how) => this.end(how),
+      noise: (bytes, ms) => this.#noise(bytes, ms),
+      inPieces: (going) => {
+        if (going) this.#inPieces = true
+        else this.#sent()
+      },
+    })
     peer.onReceived = (bytes) => this.#receive(bytes)
   }
 
@@ -125,6 +130,8 @@ export class SimulatedConnection {
   end(how?: 'close' | 'reset'): void {
     this.#ended = true
     this.#sequence.close()
+    for (const cancel of this.#noises) cancel()
+    this.#noises.clear()
     this.#shared.plc.files.disconnected(this.#call.caller)
     if (this.kind === 'stream') this.#held.length = 0
     if (how === 'close') this.#peer.close()
@@ -185,11 +192,8 @@ export class SimulatedConnection {
   }
 
   #begin(work: Work, wait: number): readonly Step[] {
-    const answer: Step = { act: () => this.#answer(work) }
-    const late = this.#held.splice(0)
-    for (const { until, send } of late) if (until === 'request') send()
-    const after = late.filter(({ until }) => until === 'answer').map(({ send }) => acting(send))
-    return [{ wait }, answer, ...after]
+    const after = this.#delivery.letGo()
+    return [{ wait }, { act: () => this.#answer(work) }, ...after]
   }
 
   #answer(work: Work): readonly Step[] {
@@ -249,56 +253,8 @@ export class SimulatedConnection {
   }
 
   #deliver(answer: Buffer, work: Work): readonly Step[] {
-    const { faults } = this.#shared
     this.#shared.counters.answers++
-    if (faults.none && this.#merging.length === 0) {
-      this.#send(answer)
-      return NOTHING
-    }
-    if (faults.take('drop', work) !== undefined) return NOTHING
-    const pieces = this.#withGarbage(this.#copies(answer, work), work)
-    const late = faults.take('late', work)
-    if (late !== undefined) {
-      const send = () => {
-        for (const piece of pieces) this.#send(piece)
-      }
-      this.#held.push({ until: late.until, send })
-      return NOTHING
-    }
-    const merged = this.#merge(pieces, work)
-    const delay = faults.take('delay', work)
-    const sending = { act: () => this.#sending(merged, work) }
-    return merged.length === 0 ? NOTHING : [{ wait: delay?.ms ?? 0 }, sending]
-  }
-
-  #copies(answer: Buffer, work: Work): Buffer[] {
-    const duplicate = this.#shared.faults.take('duplicate', work)
-    return new Array<Buffer>(1 + (duplicate?.copies ?? 0)).fill(answer)
-  }
-
-  #withGarbage(pieces: Buffer[], work: Work): Buffer[] {
-    const garbage = this.#shared.faults.take('garbage', work)
-    if (garbage === undefined) return pieces
-    // Never the subheader of an answer in either code.
-    const bytes = Buffer.alloc(garbage.bytes, Buffer.from([0xff, 0x00, 0xa5, 0x5a]))
-    if (garbage.place === 'instead') return [bytes]
-    const all = garbage.place === 'before' ? [bytes, ...pieces] : [...pieces, bytes]
-    return this.kind === 'datagram' ? all : [Buffer.concat(all)]
-  }
-
-  /** Holds a single answer until there is another one to merge it with. */
-  #merge(pieces: readonly Buffer[], work: Work): readonly Buffer[] {
-    const merge = this.#shared.faults.take('merge', work) !== undefined
-    if (!merge && this.#merging.length === 0) return pieces
-    const all = [...this.#merging, ...pieces]
-    this.#merging = merge && all.length < 2 ? all : []
-    return this.#merging.length > 0 ? [] : [Buffer.concat(all)]
-  }
-
-  #sending(pieces: readonly Buffer[], work: Work): readonly Step[] {
-    work.sending = true
-    this.#inPieces = true
-    return [...this.#piecesOf(pieces, work), acting(() => this.#sent())]
+    return this.#delivery.deliver(answer, work)
   }
 
   #sent(): void {
@@ -306,37 +262,12 @@ export class SimulatedConnection {
     for (const bytes of this.#unasked.splice(0)) this.#send(bytes)
   }
 
-  #piecesOf(pieces: readonly Buffer[], work: Work): readonly Step[] {
-    const { faults } = this.#shared
-    const [first = Buffer.alloc(0), ...rest] = pieces
-    const end = faults.take('disconnect', work)
-    if (end !== undefined) return [this.#step(first.subarray(0, end.at)), { wait: ARRIVAL }, this.#ending(end.how)]
-    const cut = faults.take('cut', work)
-    if (cut !== undefined) return [this.#step(first.subarray(0, cut.at))]
-    const split = faults.take('split', work)
-    if (split !== undefined) {
-      const halves = [first.subarray(0, split.at), first.subarray(split.at)]
-      return this.#spaced([...halves, ...rest], split.pause)
-    }
-    const dribble = faults.take('dribble', work)
-    if (dribble !== undefined)
-      return this.#spaced(
-        pieces.flatMap((piece) => drops(piece, dribble.size)),
-        dribble.pause,
-      )
-    return pieces.map((piece) => this.#step(piece))
-  }
-
-  #spaced(pieces: readonly Buffer[], pause: number): readonly Step[] {
-    return pieces.flatMap((piece, i) => [...(i === 0 ? [] : [{ wait: pause }]), this.#step(piece)])
-  }
-
-  #step(bytes: Buffer): Step {
-    return acting(() => this.#send(bytes))
-  }
-
-  #ending(how: 'close' | 'reset'): Step {
-    return acting(() => this.end(how))
+  #noise(bytes: Buffer, ms: number): void {
+    const cancel = this.#shared.clock.timer(ms, () => {
+      this.#noises.delete(cancel)
+      this.#send(bytes)
+    })
+    this.#noises.add(cancel)
   }
 
   #send(bytes: Buffer): void {
@@ -349,17 +280,4 @@ export class SimulatedConnection {
 /** This station in the fields of the frame that asked. */
 function own({ extensionStation }: Route): Route {
   return extensionStation === undefined ? ownStation : { ...ownStation, extensionStation: 0 }
-}
-
-function acting(act: () => void): Step {
-  return {
-    act() {
-      act()
-      return NOTHING
-    },
-  }
-}
-
-function drops(piece: Buffer, size: number): Buffer[] {
-  return Array.from({ length: Math.ceil(piece.length / size) }, (_, i) => piece.subarray(i * size, (i + 1) * size))
 }

@@ -33,6 +33,11 @@ export interface FaultDescription {
 
 const pause = { title: 'ms between the pieces', min: 0, default: 5 } as const
 const how = { title: 'FIN, or RST that loses what is under way', oneOf: ['close', 'reset'], default: 'reset' } as const
+const damage = {
+  what: { title: 'what becomes of it', oneOf: ['lost', 'doubled', 'changed'], default: 'changed' },
+  at: { title: 'which, counted from 0; the last one where there are not so many', min: 0, default: 3 },
+  mask: { title: 'changed: bits that are inverted', min: 1, max: 0xff, default: 1 },
+} as const
 
 const rows = {
   silence: { title: 'The request is lost: not carried out, not answered', parameters: {} },
@@ -102,6 +107,15 @@ const rows = {
     title:
       'Of requests that arrive together, or while one is waiting, only the last is carried out and answered (FX5U)',
     parameters: { window: { title: 'ms a request waits for the next one', min: 1, default: 5 } },
+  },
+  damaged: { title: 'A character (byte) of the answer is lost, doubled or changed', parameters: damage },
+  noise: {
+    title: 'Bytes of any value some time after the answer was due',
+    parameters: {
+      bytes: { title: 'how many', min: 1, max: 4096, default: 3 },
+      ms: { title: 'ms after the answer was due', min: 0, default: 5 },
+      seed: { title: 'other ones for each number', min: 0, max: 0xffff_ffff, default: 1 },
+    },
   },
   closeOnAccept: {
     title: 'A connection is accepted and ended at once, as when all entries are taken',

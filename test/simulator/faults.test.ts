@@ -106,6 +106,36 @@ describe.each(PROTOCOLS)('over %s', (protocol) => {
     })
   })
 
+  const damages: readonly (readonly [Fault, string])[] = [
+    [{ kind: 'damaged', what: 'lost', at: 0 }, word(0).subarray(1).toString('hex')],
+    [{ kind: 'damaged', what: 'lost', at: 99 }, word(0).subarray(0, 12).toString('hex')],
+    [{ kind: 'damaged', what: 'doubled', at: 0 }, `d0${word(0).toString('hex')}`],
+    [{ kind: 'damaged', what: 'doubled', at: 12 }, `${word(0).toString('hex')}00`],
+    [{ kind: 'damaged', at: 11, mask: 0x81 }, word(0x81).toString('hex')],
+  ]
+  test.each(damages)('%o', (fault, expected) =>
+    withClient(protocol, {}, async (plc, { transport, bytes }) => {
+      plc.faults.add(fault)
+      transport.send(readD(0))
+      expect((await bytes(expected.length / 2)).toString('hex')).toBe(expected)
+    }),
+  )
+
+  test('noise: bytes of any value so much later, the same for the same seed', async () => {
+    const heard: string[] = []
+    for (const seed of [1, 1, 2]) {
+      const clock = manualClock()
+      await withClient(protocol, { clock }, async (plc, { transport, bytes }) => {
+        plc.faults.add({ kind: 'noise', bytes: 4, ms: 50, seed })
+        transport.send(readD(0))
+        expect(await bytes(13)).toEqual(word(0))
+        clock.advance(50)
+        heard.push((await bytes(17)).subarray(13).toString('hex'))
+      })
+    }
+    expect([heard[0] === heard[1], heard[0] === heard[2]]).toEqual([true, false])
+  })
+
   test('dribble: byte by byte', () => {
     const clock = manualClock()
     return withClient(protocol, { clock }, async (plc, { transport, bytes, chunks }) => {
@@ -341,13 +371,16 @@ describe('switches', () => {
   })
 
   const wrong: readonly (readonly [string, unknown])[] = [
-    ['kind', { kind: 'noise' }],
+    ['kind', { kind: 'weather' }],
     ['delay.ms', { kind: 'delay' }],
     ['delay.ms', { kind: 'delay', ms: -1 }],
     ['split.at', { kind: 'split', at: 0 }],
     ['endCode.endCode', { kind: 'endCode', endCode: 0 }],
     ['endCode.endCode', { kind: 'endCode', endCode: 65536 }],
     ['garbage.place', { kind: 'garbage', place: 'middle' }],
+    ['damaged.what', { kind: 'damaged', what: 'stolen' }],
+    ['damaged.mask', { kind: 'damaged', mask: 256 }],
+    ['noise.bytes', { kind: 'noise', bytes: 0 }],
     ['speed', { kind: 'dribble', speed: 1 }],
     ['times', { kind: 'drop', times: 0 }],
     ['commands', { kind: 'drop', commands: ['readEverything'] }],
