@@ -6,15 +6,13 @@ import { type DataCode, type Message, writerOf } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { HeadProtocol, NamedCommand, RequestFrame } from '../link/link'
 import { type ACompatibleCommandName, aCompatibleCommands } from '../melsec/a-compatible/commands'
-import { type DeviceProblem, deviceProblem, pointLimit } from '../melsec/a-compatible/device-rules'
+import type { DeviceProblem } from '../melsec/a-compatible/device-rules'
 import { slmpNameOf } from '../melsec/a-compatible/names'
 import { aCompatibleProtocol } from '../melsec/a-compatible/protocol'
 import { type ACompatibleFamily, aCompatibleRules, fx5Over1e, type OddBits } from '../melsec/a-compatible/rules'
-import { fromFrame } from '../melsec/a-compatible/windows'
-import type { CommandName } from '../melsec/commands/commands'
-import type { DeviceAddress } from '../melsec/device/device'
 import { type Head1e, mayEndWithZero, zeroBehind } from '../melsec/frame/frame-1e'
 import type { Profile } from '../melsec/profiles/profile'
+import { type Translated, translated } from './other-set'
 import { Refusal } from './refusal'
 
 /** End codes of 1E. */
@@ -30,14 +28,6 @@ const END_CODES: Readonly<Record<DeviceProblem['kind'], number>> = {
 }
 
 const CONNECTED_STATION = 0xff
-
-/** A 1E request as the handlers take it. */
-export interface Translated {
-  readonly name: CommandName
-  readonly message: Message
-  /** The data of the answer. */
-  readonly respond: (response: Message) => Buffer
-}
 
 export interface ACompatiblePortOptions {
   readonly profile: Profile
@@ -77,7 +67,12 @@ export class ACompatiblePort {
     }
     return {
       name: slmpNameOf(name),
-      message: this.#translated(name, message),
+      message: translated(
+        { rules: aCompatibleRules, endCodes: END_CODES, exclusions: this.#profile.exclusions1e ?? [] },
+        name,
+        slmpNameOf(name),
+        message,
+      ),
       respond: (response) => {
         const asked = name === 'readPcType' ? { typeCode: this.#family.typeCode } : response
         return this.#complete(command.code, 0, this.#protocol.writeResponse(command, message, asked))
@@ -111,56 +106,6 @@ export class ACompatiblePort {
     if (error.code === 'BAD_DIGIT') return END.asciiConversion
     if (error.code !== 'BAD_FIELD') return END.points
     return body.length > 0 && /device code/.test(error.message) ? END.device : END.points
-  }
-
-  #translated(name: ACompatibleCommandName, message: Message): Message {
-    switch (name) {
-      case 'readBits':
-      case 'readWords':
-        return { ...message, head: this.#device(name, message.head as DeviceAddress, Number(message.points)) }
-      case 'writeBits':
-      case 'writeWords': {
-        const { length } = message.values as readonly unknown[]
-        return { ...message, head: this.#device(name, message.head as DeviceAddress, length) }
-      }
-      case 'writeRandomBits':
-        return { bits: this.#list(name, message.bits) }
-      case 'writeRandomWords':
-        return { words: this.#list(name, message.words), doubleWords: [] }
-      case 'remoteRun':
-        return { mode: 1, clearMode: 0 }
-      case 'remoteStop':
-      case 'readPcType':
-        return {}
-      case 'loopback':
-        return message
-      default:
-        return name satisfies never
-    }
-  }
-
-  #list(name: ACompatibleCommandName, elements: unknown): readonly Message[] {
-    // The shape of the declaration: decoded by it.
-    const list = elements as readonly { readonly device: DeviceAddress }[]
-    const max = pointLimit(aCompatibleRules, name, 'M') ?? 0
-    if (list.length > max) throw new Refusal(END.points, `${name}: ${list.length} devices, at most ${max}`)
-    return list.map((element) => ({ ...element, device: this.#device(name, element.device, 1) }))
-  }
-
-  #device(name: ACompatibleCommandName, address: DeviceAddress, points: number): DeviceAddress {
-    // The memory has special relays and registers under their iQ-F names, whatever the family calls them.
-    const { windows } = fx5Over1e
-    const device = fromFrame(windows, address)
-    if (device === undefined) {
-      throw new Refusal(END.device, `1E does not reach ${address.device}${address.number}`)
-    }
-    const problem = deviceProblem(aCompatibleRules, windows, name, device, points)
-    if (problem !== undefined) throw new Refusal(END_CODES[problem.kind], problem.message)
-    const exclusion = this.#profile.exclusions1e?.find(
-      ({ commands, devices }) => commands.includes(slmpNameOf(name)) && devices.includes(device.device),
-    )
-    if (exclusion !== undefined) throw new Refusal(exclusion.endCode, exclusion.reason)
-    return device
   }
 
   /** The refusal of a handler, whose end codes are those of the SLMP set, in 1E. */

@@ -12,6 +12,7 @@ import type { SlmpFrameName } from '../melsec/frame/frames'
 import type { ReceivedRequest, SlmpCommandSet } from '../melsec/protocol'
 import type { ACompatiblePort } from './a-compatible-port'
 import type { AnyHead } from './any-frame'
+import type { Translated } from './other-set'
 import { Refusal, requestErrors } from './refusal'
 
 /** A frame and what was understood of it. */
@@ -43,21 +44,32 @@ export function slmpOf({ slmp, extended }: Ports, frame: SlmpFrameName): SlmpCom
 /** Reads a frame; never throws for what a client can send. */
 export function receive(ports: Ports, frame: RequestFrame<AnyHead>): Received {
   if (frame.head.frame === '1E') return receive1e(ports.aCompatible, frame, frame.head.head)
-  const protocol = slmpOf(ports, frame.head.frame)
+  return { frame, ...slmpRequest(slmpOf(ports, frame.head.frame), frame) }
+}
+
+/** Reads a frame of the SLMP set; never throws for what a client can send. */
+export function slmpRequest(
+  protocol: SlmpCommandSet,
+  frame: Pick<RequestFrame, 'body'>,
+): Pick<Received, 'command' | 'subcommand' | 'request'> {
   const { command, subcommand } = codesOf(protocol, frame.body)
-  return { frame, command, subcommand, request: requestOf(protocol, frame, command, subcommand) }
+  return { command, subcommand, request: requestOf(protocol, frame, command, subcommand) }
 }
 
 function receive1e(port: ACompatiblePort, frame: RequestFrame<AnyHead>, head: Head1e): Received {
   const known = { frame, command: head.command, subcommand: 0 }
   try {
-    const { name, message, respond } = port.read({ ...frame, head })
-    const request: ReceivedRequest = { name, command: commands[name], message, form: 'short', subcommand: 0 }
-    return { ...known, request, respond }
+    const { respond, ...request } = port.read({ ...frame, head })
+    return { ...known, request: requestIn(request), respond }
   } catch (error) {
     if (error instanceof Refusal) return { ...known, request: error }
     throw error
   }
+}
+
+/** A request of a frame with a set of its own, whose devices have one form. */
+export function requestIn({ name, message }: Pick<Translated, 'name' | 'message'>): ReceivedRequest {
+  return { name, command: commands[name], message, form: 'short', subcommand: 0 }
 }
 
 function codesOf(protocol: SlmpCommandSet, body: Buffer): { command: number; subcommand: number } {
@@ -72,7 +84,7 @@ function codesOf(protocol: SlmpCommandSet, body: Buffer): { command: number; sub
 
 function requestOf(
   protocol: SlmpCommandSet,
-  frame: RequestFrame<AnyHead>,
+  frame: Pick<RequestFrame, 'body'>,
   code: number,
   subcommand: number,
 ): ReceivedRequest | Refusal {
