@@ -100,6 +100,17 @@ export class HeadProtocol<H extends Head> {
     return { ...asked, ...framed({ framing: this.#parts.framing, head: this.#parts.headOf(command) }, asked) }
   }
 
+  /** Bytes of the bodies of a request and of a success, without writing or checking them. */
+  bodyBytes(command: NamedCommand, message: Message): number {
+    const { code, form, front } = this.#parts
+    const known = { ascii: code === 'ascii', form }
+    const context: Context = { shape: command.request, message }
+    const dummies = this.#dummies(command, message, 'request') + this.#dummies(command, message, 'response')
+    const inFront = front === undefined ? 0 : measure(front.shape, known)
+    const request = measure(command.request, { ...known, message })
+    return inFront + request + measure(command.response, { ...known, context }) + dummies
+  }
+
   /** Without a length, an answer to another command would be waited for until it is as long as the right one. */
   #checkCommand(command: NamedCommand, head: Head): void {
     const { codeOf } = this.#parts

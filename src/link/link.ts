@@ -9,7 +9,7 @@ export {
   endedWith,
   type RefusalFacts,
 } from './end-code-facts'
-export { answerBytes, type Exchange, framed } from './exchange'
+export { answerBytes, type Envelope, type Exchange, framed } from './exchange'
 export { type Echo, Fence, type FenceOptions } from './fence'
 export type { FrameExplainer, KnownFrames, ReceivedFrame, SentFrame } from './frame-explainer'
 export type {

@@ -6,6 +6,7 @@ import type { Command, RequestOf, ResponseOf } from './commands/command'
 import type { DeviceForm } from './device/device-form'
 import type { FrameName } from './frame/frames'
 import type { Route } from './frame/route'
+import type { LineCost } from './line-cost'
 import type { Profile } from './profiles/profile'
 import type { ExchangeOptions } from './protocol'
 
@@ -50,6 +51,8 @@ export interface ClientProtocol {
   check<C extends Command>(command: C, message: RequestOf<C>): void
   /** Bytes of the bodies of a request in this form and of a success, without writing them. */
   bodyBytes<C extends Command>(command: C, message: RequestOf<C>, form: DeviceForm): number
+  /** Where every byte takes time; absent where a request costs the same whatever it carries. */
+  readonly lineCost?: LineCost | undefined
   /** Reads a frame that came unasked; absent where none ever does. */
   readonly readUnasked?: (frame: RequestFrame) => UnaskedFrame
   /** Bytes of the frame of an answer with this body. */

@@ -34,6 +34,7 @@ import { refusalTexts } from './end-codes/end-code'
 import { factsOf } from './end-codes/facts'
 import { type BodyLayout, commandFields, type ErrorInformation, plainBody } from './frame/body'
 import { describeRoute } from './frame/route'
+import { type LineCost, lineCostOf } from './line-cost'
 import type { Profile } from './profiles/profile'
 import { checkTarget } from './target'
 
@@ -370,12 +371,14 @@ export class SlmpCommandSet {
 /** The command set in a frame: what a client sends and reads. */
 export class MelsecProtocol<H extends Head> extends SlmpCommandSet {
   readonly framing: MelsecProtocolOptions<H>['framing']
+  readonly lineCost: LineCost | undefined
   readonly #head: H
   readonly #connectedHead: H
 
   constructor({ framing, head, connectedHead = head, ...options }: MelsecProtocolOptions<H>) {
     super(framing.body === undefined ? options : { ...options, body: framing.body })
     this.framing = framing
+    this.lineCost = lineCostOf({ framing, head })
     this.#head = head
     this.#connectedHead = connectedHead
   }

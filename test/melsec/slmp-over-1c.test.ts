@@ -52,7 +52,7 @@ function expectWithinLimits(plc: Plc1c): void {
 }
 
 describe('a plan', () => {
-  test('is made of the fewest requests that 1C takes', async () => {
+  test('is made of what 1C takes, with the fewest characters', async () => {
     const protocol = over1c()
     const plc = new Plc1c(protocol.own)
     for (let i = 0; i < 200; i++) plc.setWord(at('D', i), i)
@@ -70,8 +70,8 @@ describe('a plan', () => {
     ])
     expectWithinLimits(plc)
     const names = plc.seen.map(({ name }) => name).sort()
-    // 200 words of D in four requests of 64, R20000 with six digits, M0 to M299 in one of 19 words.
-    expect(names).toEqual(['BR', 'QR', 'WR', 'WR', 'WR', 'WR', 'WR', 'WR'])
+    // 200 words of D in four requests of 64, R20000 with six digits, M0 to M299 in one of 19 words, single bits as such.
+    expect(names).toEqual(['BR', 'BR', 'QR', 'WR', 'WR', 'WR', 'WR', 'WR'])
   })
 
   test('reads what was written, whatever the plan, and no request is too long', async () => {

@@ -180,6 +180,12 @@ export function randomLoad(area: Area, cells: number): Load {
   }
 }
 
+export function blockLoad(area: Area, cells: number): Load {
+  return area.ways.block === 'bitBlocks'
+    ? { bitBlocks: 1, 'bitBlocks.points': cells }
+    : { wordBlocks: 1, 'wordBlocks.points': cells }
+}
+
 /** The field of the direct command that holds its points. */
 export function directLoad(area: Area, cells: number): Load {
   const points = area.kind === 'bit' ? cells : cells * wordsPerCell(area)

@@ -24,7 +24,7 @@ const IN_MODULES: readonly DeviceName[] = ['G', 'HG', 'DX', 'DY']
  * Cells that may be read in vain between two runs.
  * @param gap words
  */
-function gapIn({ info, ways, kind, bitsPerCell }: Area, gap: number): number {
+export function gapIn({ info, ways, kind, bitsPerCell }: Area, gap: number): number {
   if (ways.direct === undefined || IN_MODULES.includes(info.name)) return 0
   // In bit units a byte of the answer holds two bits, so four bits cost as much as a word.
   return kind === 'bit' ? 4 * gap : Math.floor((16 * gap) / bitsPerCell)

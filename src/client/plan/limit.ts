@@ -8,7 +8,10 @@ import type { LimitedUnit } from '../../melsec/device/limit-rule'
 import type { Profile } from '../../melsec/profiles/profile'
 
 /** What of a protocol the planner looks at. */
-export type PlanProtocol = Pick<ClientProtocol, 'profile' | 'code' | 'exchange' | 'check' | 'bodyBytes' | 'answerBytes'>
+export type PlanProtocol = Pick<
+  ClientProtocol,
+  'profile' | 'code' | 'exchange' | 'check' | 'bodyBytes' | 'answerBytes' | 'lineCost'
+>
 
 /** Elements per field of a request, named as in `Limit.sum`, e.g. `{ words: 3, doubleWords: 2 }`. */
 export type Load = Readonly<Record<string, number>>

@@ -1,12 +1,14 @@
 /**
- * Which requests read a set of pieces: fewest requests, then fewest bytes.
+ * Which requests read a set of pieces: fewest requests, then fewest bytes; on a serial line the fewest bytes (cheapest.ts).
  *
  * Chunks can be read by one Read (0401) each; their runs can share a Read Random (0403), which counts points, or a Read
  * Block (0406), which counts blocks and words. Three ways to distribute them are drawn up and the best one is taken.
  */
 import type { CommandName } from '../../melsec/commands/commands'
-import { groupOf, randomLoad } from './area'
+import { blockLoad, groupOf, randomLoad } from './area'
+import { cheapest } from './cheapest'
 import { type Chunk, chunksOf, type Stretch } from './chunk'
+import { type BodyBytes, type Draft, firstItem, inOrder, least, type PackOptions, sortedBy } from './draft'
 import type { Areas, Piece } from './layout'
 import {
   addSums,
@@ -21,25 +23,13 @@ import {
   sumsOf,
   weightOf,
 } from './limit'
-
-/** One request to be: the cells it asks for. */
-export type Draft =
-  | { readonly kind: 'direct'; readonly run: Stretch }
-  | { readonly kind: 'random'; readonly runs: readonly Stretch[] }
-  | { readonly kind: 'block'; readonly runs: readonly Stretch[] }
-
-export interface PackOptions {
-  /** Words that may be read in vain to merge near items. */
-  readonly gap: number
-  /** Commands the PLC has refused: not used again. */
-  readonly without: ReadonlySet<CommandName>
-}
-
-/** Bytes of a draft, request and response together. */
-export type Cost = (draft: Draft) => number
+import { Prices } from './price'
 
 /** The requests that read the pieces. Areas of different groups never share one. */
-export function packed(areas: Areas, pieces: readonly Piece[], options: PackOptions, cost: Cost): Draft[] {
+export function packed(areas: Areas, pieces: readonly Piece[], options: PackOptions, bytes: BodyBytes): Draft[] {
+  const { lineCost } = areas.protocol
+  if (lineCost !== undefined)
+    return inOrder(cheapest(areas, pieces, options, new Prices(bytes, lineCost.read, areas.protocol.code)))
   const groups = new Map<string, Chunk[]>()
   for (const chunk of chunksOf(areas, pieces, options.gap)) {
     const group = groupOf(chunk.area)
@@ -47,42 +37,21 @@ export function packed(areas: Areas, pieces: readonly Piece[], options: PackOpti
     if (chunks === undefined) groups.set(group, [chunk])
     else chunks.push(chunk)
   }
-  const drafts = [...groups.values()].flatMap((chunks) => best(plansOf(areas.protocol, chunks, options), cost))
-  return sortedBy(drafts, (draft) =>
-    draft.kind === 'direct' ? firstItem(draft.run) : least(draft.runs.map((run) => firstItem(run))),
+  return inOrder(
+    [...groups.values()].flatMap((chunks) => best(plansOf(areas.protocol, chunks, options.without), bytes)),
   )
 }
 
-function firstItem({ members }: Stretch): number {
-  let first = Number.POSITIVE_INFINITY
-  for (const { item } of members) if (item < first) first = item
-  return first
-}
-
-function least(numbers: readonly number[]): number {
-  let found = Number.POSITIVE_INFINITY
-  for (const number of numbers) if (number < found) found = number
-  return found
-}
-
-/** Numbers are asked for once for each, not with each comparison. */
-function sortedBy<T>(values: readonly T[], numberOf: (value: T) => number): T[] {
-  return values
-    .map((value) => ({ value, number: numberOf(value) }))
-    .sort((a, b) => a.number - b.number)
-    .map(({ value }) => value)
-}
-
-function best(plans: readonly (readonly Draft[])[], cost: Cost): readonly Draft[] {
+function best(plans: readonly (readonly Draft[])[], bytes: BodyBytes): readonly Draft[] {
   const fewest = Math.min(...plans.map((plan) => plan.length))
   const short = plans.filter((plan) => plan.length === fewest)
   const [first = [], ...others] = short
   if (others.length === 0) return first
-  const total = (plan: readonly Draft[]) => plan.reduce((sum, draft) => sum + cost(draft), 0)
+  const total = (plan: readonly Draft[]) => plan.reduce((sum, draft) => sum + bytes(draft), 0)
   return others.reduce((a, b) => (total(b) < total(a) ? b : a), first)
 }
 
-function plansOf(protocol: PlanProtocol, chunks: readonly Chunk[], { without }: PackOptions): Draft[][] {
+function plansOf(protocol: PlanProtocol, chunks: readonly Chunk[], without: PackOptions['without']): Draft[][] {
   const [first, ...others] = chunks
   if (first === undefined) return [[]]
   if (others.length === 0 && first.area.ways.direct !== undefined) return [[direct(first)]]
@@ -203,10 +172,11 @@ function byBlock(protocol: PlanProtocol, chunks: readonly Chunk[], without: Read
   const blocks = chunks.filter(({ area }) => area.ways.block !== undefined)
   const first = blocks[0]
   if (first === undefined) return []
-  const scale = new Scale(boundsOf(protocol, 'readBlock', first.area.ways.form), blockLoad)
+  const scale = new Scale(boundsOf(protocol, 'readBlock', first.area.ways.form), ({ area, from, to }) =>
+    blockLoad(area, to - from),
+  )
   const others = chunks.filter(({ area }) => area.ways.block === undefined)
-  const otherPlans =
-    others.length === 0 ? [[]] : plansOf(protocol, others, { gap: 0, without: new Set([...without, 'readBlock']) })
+  const otherPlans = others.length === 0 ? [[]] : plansOf(protocol, others, new Set([...without, 'readBlock']))
   const whole = blocks.map((chunk): Parcel => ({ run: wholeOf(chunk), chunk }))
   // Chunks of one run each are as large as their runs.
   const sizes = blocks.every(({ members }) => members.length === 1) ? [whole] : [whole, parcelsOf(blocks)]
@@ -222,11 +192,4 @@ function wholeOf({ area, from, to, members }: Chunk): Stretch {
   const [only] = members
   if (members.length === 1 && only !== undefined) return only
   return { area, from, to, members: members.flatMap((run) => run.members) }
-}
-
-function blockLoad({ area, from, to }: Stretch): Load {
-  const points = to - from
-  return area.ways.block === 'bitBlocks'
-    ? { bitBlocks: 1, 'bitBlocks.points': points }
-    : { wordBlocks: 1, 'wordBlocks.points': points }
 }

@@ -8,9 +8,10 @@ import { addressOptionsOf } from '../../melsec/profiles/profile'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { Stretch } from './chunk'
+import type { PackOptions } from './draft'
 import { Areas, type Piece, pieceOf, piecesOf, readLayout } from './layout'
 import type { PlanProtocol } from './limit'
-import { type PackOptions, packed } from './pack'
+import { packed } from './pack'
 import { bodyBytes, checkCells, type PreparedRead, prepareRead } from './request'
 import { type Place, placeOf } from './value'
 
@@ -100,8 +101,9 @@ export class ReadShape {
     }
   }
 
-  #built(pieces: readonly Piece[], options: PackOptions, stage: ReadStep['stage']): ReadStep[] {
-    const drafts = packed(this.#areas, pieces, options, (draft) => bodyBytes(this.#protocol, draft))
+  #built(pieces: readonly Piece[], options: Omit<PackOptions, 'exact'>, stage: ReadStep['stage']): ReadStep[] {
+    const all: PackOptions = { ...options, exact: (piece) => this.#exact(piece) }
+    const drafts = packed(this.#areas, pieces, all, (draft) => bodyBytes(this.#protocol, draft))
     return drafts.map((draft) =>
       this.#stepOf(prepareRead(this.#protocol, draft, this.#address), options.without, stage),
     )

@@ -10,8 +10,8 @@ import { subcommandOf } from '../../melsec/device/form'
 import type { Words } from '../../value/value'
 import { type Area, addressAt, wordsPerCell } from './area'
 import type { Stretch } from './chunk'
+import type { Draft } from './draft'
 import type { PlanProtocol } from './limit'
-import type { Draft } from './pack'
 
 /** Sends one request and resolves with what it answered. It may be called again before the last answer has come. */
 export type SendExchange = <T>(exchange: Exchange<T>) => Promise<T>

@@ -16,6 +16,7 @@ import {
 import type { ClientProtocol, ShownAs } from '../client-protocol'
 import type { Command, RequestOf, ResponseOf } from '../commands/command'
 import { deviceInfo } from '../device/device'
+import { type LineCost, lineCostOf } from '../line-cost'
 import { lackOf, type Profile } from '../profiles/profile'
 import type { ExchangeOptions } from '../protocol'
 import { isAddress } from './frame-names'
@@ -54,6 +55,7 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
   readonly framing: Framing<H>
   readonly profile: Profile
   readonly code: DataCode
+  readonly lineCost: LineCost | undefined
   /** The frame's own commands, also those that the SLMP set does not have. */
   readonly own: HeadProtocol<H>
   readonly #set: OtherSet<H>
@@ -64,6 +66,7 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
     this.framing = set.protocol.framing
     this.profile = set.profile
     this.code = set.code
+    this.lineCost = lineCostOf({ framing: this.framing, head: set.anyHead })
   }
 
   answerBytes(body: number): number {
@@ -82,10 +85,8 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
   ): Exchange<ResponseOf<C>> {
     const given: Message = message
     this.#check(command, options)
-    const { name } = command
-    const { frame, said, protocol } = this.#set
-    if (!isSaid(name)) throw new RequestError('UNSUPPORTED', `A ${frame} frame has no command ${name}.`, name)
-    const { command: own, message: asked, answer } = said(name, given)
+    const { said, protocol } = this.#set
+    const { command: own, message: asked, answer } = said(this.#nameOf(command), given)
     const exchange = protocol.exchange(own, asked)
     return {
       ...exchange,
@@ -101,8 +102,14 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
   }
 
   bodyBytes<C extends Command>(command: C, message: RequestOf<C>): number {
-    const { body, answerBody } = this.exchange(command, message)
-    return body.length + (answerBody() ?? 0)
+    const { said, protocol } = this.#set
+    const { command: own, message: asked } = said(this.#nameOf(command), message)
+    return protocol.bodyBytes(own, asked)
+  }
+
+  #nameOf({ name }: Command): SaidName {
+    if (isSaid(name)) return name
+    throw new RequestError('UNSUPPORTED', `A ${this.#set.frame} frame has no command ${name}.`, name)
   }
 
   #check(command: Command, options: ExchangeOptions): void {
