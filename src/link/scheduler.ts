@@ -55,6 +55,7 @@ export class Scheduler<J extends Scheduled> {
 
   /** The one whose turn it is; `undefined` when none may go yet. */
   peek(now: number): J | undefined {
+    if (this.#size === 0) return undefined
     if (this.#only !== undefined) return mayGo(this.#only, now) ? this.#only : undefined
     return this.#lanes[this.#next(now)]?.queue.first(now)
   }
@@ -133,7 +134,6 @@ export class Scheduler<J extends Scheduled> {
 
   /** Rank of the priority whose turn it is; -1 when nothing may go. */
   #next(now: number): number {
-    if (this.#size === 0) return -1
     return this.#lanes.findIndex(
       ({ queue, inARow }, rank) => this.#waits(queue, now) && (inARow < IN_A_ROW || !this.#lowerWaits(rank, now)),
     )
