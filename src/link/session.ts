@@ -57,7 +57,7 @@ interface Pending<J> extends Outgoing<J> {
 
 /** What stands at the front of the received bytes. `unasked`: an answer that belongs to no request. */
 type Found =
-  | ({ readonly kind: 'answer' } & Scanned<ResponseFrame>)
+  | { readonly used: number; readonly kind: 'answer'; readonly answer: Scanned<ResponseFrame> }
   | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame }
   | { readonly used: number; readonly kind: 'unasked' }
 
@@ -239,13 +239,7 @@ export class Session<J extends Job = Job> {
       this.#waiting.take(now)
       this.#fence?.sent()
       const serial = this.#serials.take((used) => this.#pending.some((entry) => entry.serial === used))
-      const entry = {
-        job,
-        serial,
-        bytes: job.write(serial),
-        sentAt: now,
-        sent: false,
-      }
+      const entry = { job, serial, bytes: job.write(serial), sentAt: now, sent: false }
       this.#pending.push(entry)
       this.#output.push(entry)
     }
@@ -290,7 +284,7 @@ export class Session<J extends Job = Job> {
         if (this.#skipNoise()) continue
         const found = this.#find(this.#received.bytes)
         if (found === undefined) break
-        this.#received.mayFollow(found.kind === 'answer' ? found.mayFollow : undefined)
+        this.#received.mayFollow(found.kind === 'answer' ? found.answer.mayFollow : undefined)
         this.#take(found, now)
         this.#received.take(found.used)
       }
@@ -371,13 +365,13 @@ export class Session<J extends Job = Job> {
     const scanned = this.#framing.response.scan(bytes, (head, soFar) =>
       this.#pending[0]?.job.responseLength(head, soFar),
     )
-    return scanned && { kind: 'answer', ...scanned }
+    return scanned && { used: scanned.used, kind: 'answer', answer: scanned }
   }
 
   #take(found: Found, now: number): void {
     switch (found.kind) {
       case 'answer':
-        this.#attribute(found.frame, now)
+        this.#attribute(found.answer.frame, now)
         return
       case 'unsolicited':
         this.#events.push({ kind: 'unsolicited', frame: found.frame })
@@ -411,7 +405,9 @@ export class Session<J extends Job = Job> {
     const mismatch = found.job.mismatch(frame.head)
     if (mismatch !== undefined)
       throw new ProtocolError('ECHO_MISMATCH', `The answer is not the request's: ${mismatch}.`)
-    this.#pending.splice(at, 1)
+    // Mostly it is the only one, and the last is taken for less than any is cut out.
+    if (this.#pending.length === 1) this.#pending.pop()
+    else this.#pending.splice(at, 1)
     // The first requests on a connection meet a peer that is still waking up.
     const { allowance, roundTrips = this.#roundTrips } = found.job
     if (allowance !== undefined) roundTrips.add(now - found.sentAt)
@@ -495,5 +491,5 @@ function earlier(a: number | undefined, b: number | undefined): number | undefin
 /** Whether the datagram holds what was found and nothing behind it but what may follow. */
 function endsWith(found: Found, datagram: Buffer): boolean {
   const rest = datagram.subarray(found.used)
-  return rest.length === 0 || (found.kind === 'answer' && found.mayFollow?.equals(rest) === true)
+  return rest.length === 0 || (found.kind === 'answer' && found.answer.mayFollow?.equals(rest) === true)
 }

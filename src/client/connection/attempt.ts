@@ -105,26 +105,26 @@ export class Attempt implements LineUser {
   }
 
   sent(bytes: Buffer): void {
-    this.#owner.counters.add('bytesSent', bytes.length)
+    this.#owner.counters.counts.bytesSent += bytes.length
     this.#owner.trace('sent', bytes)
   }
 
   received(bytes: Buffer, now: number): void {
     this.#receivedAnything = true
     this.#opening.heard(now)
-    this.#owner.counters.add('bytesReceived', bytes.length)
+    this.#owner.counters.counts.bytesReceived += bytes.length
     this.#owner.trace('received', bytes)
   }
 
   unsolicited(frame: RequestFrame): void {
-    this.#owner.counters.add('unsolicited')
+    this.#owner.counters.counts.unsolicited += 1
     tellListener(this.#options.onUnsolicited, frame)
   }
 
   stale(isAlive: boolean): void {
     // Too late for its request, but the PLC is alive.
     if (isAlive) this.#silent = 0
-    this.#owner.counters.add('stale')
+    this.#owner.counters.counts.stale += 1
   }
 
   ended(ends: readonly LineEnd[]): void {
@@ -132,7 +132,7 @@ export class Attempt implements LineUser {
   }
 
   lost(error: PlcError | undefined): void {
-    if (error instanceof ProtocolError) this.#owner.counters.add('protocolErrors')
+    if (error instanceof ProtocolError) this.#owner.counters.counts.protocolErrors += 1
     this.#lost(error ?? failure.closedByPeer(this.peer, this.#receivedAnything, this.#askedAlone()))
   }
 
@@ -212,12 +212,12 @@ export class Attempt implements LineUser {
     }
     const error = job.answer(frame, roundTrip)
     if (!isProbe) {
-      counters.add('answered')
-      if (error instanceof EndCodeError) counters.add('refused')
+      counters.counts.answered += 1
+      if (error instanceof EndCodeError) counters.counts.refused += 1
       if (roundTrip !== undefined) counters.roundTrip(roundTrip)
     }
     if (error !== undefined && endsConnection(error, this.#line.framing.correlation)) {
-      counters.add('protocolErrors')
+      counters.counts.protocolErrors += 1
       this.#lost(error)
     } else if (this.#over) return
     else if (isProbe) this.#goOn(error)
@@ -237,7 +237,7 @@ export class Attempt implements LineUser {
     }
     job.fail(error)
     if (!goesOn) return
-    this.#owner.counters.add('protocolErrors')
+    this.#owner.counters.counts.protocolErrors += 1
     if (this.#opening.owns(job)) this.#lost(error)
   }
 
@@ -249,7 +249,7 @@ export class Attempt implements LineUser {
       this.#lost(failure.reset(this.peer))
       return
     }
-    if (!isProbe) this.#owner.counters.add('timeouts')
+    if (!isProbe) this.#owner.counters.counts.timeouts += 1
     const causes = this.#causes()
     if (!sent) {
       const error = failure.notSentInTime(job.exchange.title)
@@ -263,13 +263,13 @@ export class Attempt implements LineUser {
 
   /** It waited so long that an answer would not come in time: the connection is as good as before. */
   #tooLate(job: Call, { waiting, roundTrip }: TooLate): void {
-    if (!this.#opening.owns(job)) this.#owner.counters.add('overloaded')
+    if (!this.#opening.owns(job)) this.#owner.counters.counts.overloaded += 1
     job.fail(failure.overloaded(job.exchange.title, waiting, roundTrip))
   }
 
   /** What must come back before a request on a fixed port did not: the request was not sent. */
   #unproved(job: Call): void {
-    if (!this.#opening.owns(job)) this.#owner.counters.add('timeouts')
+    if (!this.#opening.owns(job)) this.#owner.counters.counts.timeouts += 1
     const causes = [failure.NO_SELF_TEST, ...this.#causes()]
     this.#silence(job, causes, failure.unproved(job.exchange.title, this.peer, causes))
   }

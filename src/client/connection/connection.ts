@@ -129,7 +129,7 @@ export class Connection {
     const { timeout = usual, signal, onlyOn, caller } = options
     const now = this.#clock.now()
     const call = new Call(exchange, now + timeout, settle, { sends, onlyOn, allowance: timeout, caller })
-    if (sends) this.#counters.add('requests')
+    if (sends) this.#counters.counts.requests += 1
     if (signal !== undefined) {
       call.abortedBy(
         signal,
@@ -188,7 +188,7 @@ export class Connection {
     if (held >= 0) this.#held.splice(held, 1)
     // A call that nobody knows any more has just been settled in the session: only "unknown" is certain to be true.
     const sent = held < 0 && (this.#attempt?.abandon(call) ?? true)
-    if (call.sends) this.#counters.add('aborted')
+    if (call.sends) this.#counters.counts.aborted += 1
     call.fail(call.aborted(sent ? 'unknown' : 'notSent'))
     this.#attempt?.flush()
   }
@@ -240,7 +240,7 @@ export class Connection {
   }
 
   #open(): void {
-    this.#counters.add('connects')
+    this.#counters.counts.connects += 1
     const attempt = new Attempt(this.#options, this.#line, this.#owner, this.#probing.next)
     this.#attempt = attempt
     this.#tellState()
@@ -276,7 +276,7 @@ export class Connection {
       const next = this.#probing.next?.probe.name ?? ''
       this.#supervisor.again(failure.probeUnanswered(attempt.peer, probe, next, error), this.#clock.now())
     } else this.#supervisor.lost(error, this.#clock.now(), pause)
-    if (attempt?.isOpen === true) this.#counters.add('disconnects')
+    if (attempt?.isOpen === true) this.#counters.counts.disconnects += 1
     attempt?.end((call, sent) => this.#handedBack(call, sent, error))
     if (!this.#supervisor.hopeful) {
       const held = this.#held
@@ -301,7 +301,7 @@ export class Connection {
 
   /** A call that waited for the connection in vain. */
   #notConnected(call: Call): void {
-    if (call.sends) this.#counters.add('timeouts')
+    if (call.sends) this.#counters.counts.timeouts += 1
     const { peer = 'the PLC', isOpen: open = false, probing: asked } = this.#attempt ?? {}
     const causes = open ? this.#owner.causes(peer, asked) : []
     const attempt = { peer, open, causes, reason: this.#supervisor.error, asked }

@@ -61,7 +61,8 @@ export type Counter = Exclude<keyof Statistics, 'roundTrip' | 'queued' | 'inFlig
 const KEPT = 1024
 
 export class Counters {
-  readonly #counts: Record<Counter, number> = {
+  /** Added to by whoever sees something happen. */
+  readonly counts: Record<Counter, number> = {
     requests: 0,
     answered: 0,
     refused: 0,
@@ -79,17 +80,13 @@ export class Counters {
   readonly #times = new Float64Array(KEPT)
   #timed = 0
 
-  add(counter: Counter, amount = 1): void {
-    this.#counts[counter] += amount
-  }
-
   roundTrip(ms: number): void {
     this.#times[this.#timed % KEPT] = ms
     this.#timed += 1
   }
 
   read(queued: number, inFlight: number): Statistics {
-    return { ...this.#counts, queued, inFlight, roundTrip: this.#readRoundTrip() }
+    return { ...this.counts, queued, inFlight, roundTrip: this.#readRoundTrip() }
   }
 
   #readRoundTrip(): RoundTrip | undefined {

@@ -25,6 +25,7 @@ import { explainItem } from '../plan/explain'
 import { ItemMonitor, type Monitor, type Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
 import { planRead } from '../plan/read'
+import { rejecting } from '../plan/rejecting'
 import type { SendExchange } from '../plan/request'
 import { type PlannedEntry, planWrite, type WriteCallOptions, type WriteOptions, type WriteResult } from '../plan/write'
 import type { OpenCall } from '../plan/write-turns'
@@ -89,7 +90,7 @@ export class ItemAccess {
     const plan = planRead(mixed.devices, protocol, this.#planOptions)
     if (mixed.labels.length > 0) return mixedReadPlan(mixed, plan, this.#lender, call)
     return {
-      run: async (options) => await plan.run(call(options).send, this.#lender.time),
+      run: (options) => rejecting(() => plan.run(call(options).send, this.#lender.time)),
       describe: () => plan.describe(),
       toString: () => plan.toString(),
     }

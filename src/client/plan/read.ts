@@ -51,9 +51,13 @@ export class DeviceRead {
    * @param now milliseconds since 1970
    * @returns a result for each item, in their order; it rejects only with what is no `PlcError`, which is a bug
    */
-  async run(send: SendExchange, now: () => number): Promise<ReadResult[]> {
+  run(send: SendExchange, now: () => number): Promise<ReadResult[]> {
     const [only] = this.#shape.steps
-    if (only !== undefined && this.#shape.steps.length === 1) return this.#readAlone(only, send, now)
+    const isAlone = only !== undefined && this.#shape.steps.length === 1
+    return isAlone ? this.#readAlone(only, send, now) : this.#readAll(send, now)
+  }
+
+  async #readAll(send: SendExchange, now: () => number): Promise<ReadResult[]> {
     const run = new ReadRun(this.#texts, this.#shape, send, now)
     const queue = [...this.#shape.steps].reverse()
     const lane = async () => {

@@ -84,6 +84,7 @@ export function prepareRead(protocol: PlanProtocol, draft: Draft, options: Addre
   return withQuestion(draft, (question) => {
     const { name, command, message, form, points, offsets, text, wordsOf } = question
     const exchange = protocol.exchange(command, message)
+    const asked = readAs(exchange, wordsOf)
     return {
       command: name,
       form,
@@ -94,7 +95,7 @@ export function prepareRead(protocol: PlanProtocol, draft: Draft, options: Addre
         return text(options)
       },
       offsets,
-      fetch: (send) => send(exchange).then(wordsOf),
+      fetch: (send) => send(asked),
     }
   })
 }
@@ -109,8 +110,13 @@ export function prepareMonitor(protocol: PlanProtocol, runs: readonly Stretch[])
   const { message, offsets, wordsOf } = readRandom(runs)
   const entry = protocol.exchange(commands.entryMonitorDevice, message)
   // Execute Monitor answers what Read Random would, so its words are taken apart the same way.
-  const execute = protocol.exchange(commands.executeMonitor, {}, { context: message })
-  return { entry, offsets, fetch: async (send) => wordsOf(await send(execute)) }
+  const execute = readAs(protocol.exchange(commands.executeMonitor, {}, { context: message }), wordsOf)
+  return { entry, offsets, fetch: (send) => send(execute) }
+}
+
+/** The same request, whose answer is read as something else: at once, so that nobody waits for a promise more. */
+function readAs<A, T>(exchange: Exchange<A>, read: (answer: A) => T): Exchange<T> {
+  return { ...exchange, decode: (frame) => read(exchange.decode(frame)) }
 }
 
 /** @throws RequestError when these cells alone could not be asked for. */

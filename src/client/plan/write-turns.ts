@@ -2,6 +2,7 @@
 // client, or one of the two changes would be lost. Other programs and the PLC itself are not kept away.
 import type { Exchange } from '../../link/link'
 import type { Deadline } from '../connection/deadline'
+import { rejecting } from './rejecting'
 import type { SendExchange } from './request'
 
 /** One call: all its requests share one deadline. */
@@ -19,14 +20,7 @@ export class WriteTurns {
 
   /** A call whose writes take their turns. What `refusable` throws is what the request rejects with. */
   open(deadline: Deadline, refusable: SendExchange): OpenCall {
-    // Not async: each request would wait for three turns of the queue of promises more.
-    const request: SendExchange = (exchange) => {
-      try {
-        return refusable(exchange)
-      } catch (error) {
-        return Promise.reject(error)
-      }
-    }
+    const request: SendExchange = (exchange) => rejecting(() => refusable(exchange))
     const send = <T>(exchange: Exchange<T>): Promise<T> =>
       exchange.effect === 'write' ? this.shared(deadline, exchange.title, () => request(exchange)) : request(exchange)
     return { deadline, send, alone: (use) => this.exclusive(deadline, 'Writing', () => use(request)) }

@@ -213,14 +213,18 @@ for (const frame of slmpFrameNames) {
   }
 }
 
-const ROUTE_FIELDS = ['network', 'station', 'moduleIo', 'multidrop'] as const satisfies readonly (keyof Route)[]
-
 /** The route fields are echoed (SLMP reference manual 4.2). */
 function mismatch(asked: Route, answered: Head): string | undefined {
-  for (const field of ROUTE_FIELDS) {
-    if (asked[field] !== answered[field]) return `${field} is ${answered[field]}, asked ${asked[field]}`
-  }
-  const { extensionStation = 0 } = asked
-  const { extensionStation: found = 0 } = answered
-  return extensionStation === found ? undefined : `extensionStation is ${found}, asked ${extensionStation}`
+  // Each by its name: a loop over names looks every field up anew, with every answer.
+  return (
+    differs('network', asked.network, answered.network) ??
+    differs('station', asked.station, answered.station) ??
+    differs('moduleIo', asked.moduleIo, answered.moduleIo) ??
+    differs('multidrop', asked.multidrop, answered.multidrop) ??
+    differs('extensionStation', asked.extensionStation ?? 0, answered.extensionStation ?? 0)
+  )
+}
+
+function differs(field: keyof Route, asked: number, found: number | undefined): string | undefined {
+  return asked === found ? undefined : `${field} is ${found}, asked ${asked}`
 }
