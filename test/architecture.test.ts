@@ -219,6 +219,16 @@ const FOR_TESTS: readonly string[] = [
   'serialProfiles',
   'serialTransport',
   'lineTime',
+  'flNetParameters',
+  'dl1Parameters',
+  'dl9Parameters',
+  'serialInterfaceProblems',
+  'unitErrors',
+  'unitNumbers',
+  'startProcedure',
+  'checkCodeOf',
+  'fromClassicAddress',
+  'toClassicAddress',
 ]
 
 /** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */
