@@ -219,6 +219,7 @@ const FOR_TESTS: readonly string[] = [
   'serialProfiles',
   'serialTransport',
   'lineTime',
+  'computerLinkFrame',
   'flNetParameters',
   'dl1Parameters',
   'dl9Parameters',
