@@ -9,7 +9,8 @@ import {
   type DataCode,
   type FrameName,
   type MelsecClient,
-  type MelsecClientOptions,
+  type MelsecOptions,
+  type NetworkPlc,
   PlcError,
   type ProfileId,
   profiles,
@@ -40,8 +41,11 @@ const LINES = [
 ] as const satisfies readonly { readonly frame: FrameName; readonly code: DataCode; readonly profile: ProfileId }[]
 type Line = (typeof LINES)[number]
 
+/** By a network: a serial line has nothing to try that is not an option of its own. */
+type PlcOptions = MelsecOptions & NetworkPlc
+
 /** @throws PlcError when nobody is there. */
-export async function answeringLines(options: MelsecClientOptions, over: AbortSignal): Promise<AnsweringLine[]> {
+export async function answeringLines(options: PlcOptions, over: AbortSignal): Promise<AnsweringLine[]> {
   const answering: AnsweringLine[] = []
   for (const [index, line] of LINES.entries()) {
     if (index > 0) await pause(BETWEEN)
@@ -63,7 +67,7 @@ function isNobodyThere({ code }: ConnectionError): boolean {
 }
 
 /** @throws PlcError when it is no answer */
-async function answerTo(line: Line, options: MelsecClientOptions, signal: AbortSignal): Promise<AnsweringLine> {
+async function answerTo(line: Line, options: PlcOptions, signal: AbortSignal): Promise<AnsweringLine> {
   const client = createMelsecClient(optionsFor(line, options))
   const { frame, code } = line
   const call = { timeout: PATIENCE, signal }
@@ -75,7 +79,7 @@ async function answerTo(line: Line, options: MelsecClientOptions, signal: AbortS
   }
 }
 
-function optionsFor({ frame, code, profile }: Line, options: MelsecClientOptions): MelsecClientOptions {
+function optionsFor({ frame, code, profile }: Line, options: PlcOptions): PlcOptions {
   const { host, port, transport, localAddress, localPort, route } = options
   return {
     host,
@@ -108,7 +112,7 @@ async function whoIs(client: MelsecClient, call: CallOptions): Promise<Pick<Answ
 /** For a device that did not tell its series where the chosen one lacks the frame: with it nothing would work. */
 function profileFor(
   { frame, profile }: Line,
-  chosen: MelsecClientOptions['profile'],
+  chosen: PlcOptions['profile'],
   answering: readonly AnsweringLine[],
 ): Pick<AnsweringLine, 'profile'> {
   const knows = (known: { readonly frames: readonly FrameName[] } | undefined) => known?.frames.includes(frame) === true

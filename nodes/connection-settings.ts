@@ -1,6 +1,6 @@
 // The settings of a connection as a flow stores them, and the client's options made of them.
 import type { Node, NodeAPI } from 'node-red'
-import type { MelsecClientOptions, ProfileId, Route, ValueFormat } from '../src/index'
+import type { MelsecOptions, NetworkPlc, ProfileId, Route, ValueFormat } from '../src/index'
 import { encodings, frameNames, probeKinds, profileIds, transportNames } from '../src/index'
 import { type NodeFailure, refusal } from './failure'
 import type { Texts } from './texts'
@@ -144,7 +144,7 @@ function bad(
  * The client's options. Ranges and combinations are the client's business; here only texts become numbers.
  * @throws NodeFailure NOT_CONFIGURED naming the field.
  */
-export function optionsOf(settings: ConnectionSettings, texts: Texts): MelsecClientOptions {
+export function optionsOf(settings: ConnectionSettings, texts: Texts): MelsecOptions & NetworkPlc {
   if (settings.host === '') throw bad(texts, 'host', 'error.missing')
   return {
     host: settings.host,
@@ -154,7 +154,7 @@ export function optionsOf(settings: ConnectionSettings, texts: Texts): MelsecCli
 }
 
 /** Everything but where the PLC is: enough to read addresses. */
-export function speech(settings: ConnectionSettings, texts: Texts): Omit<MelsecClientOptions, 'host' | 'port'> {
+export function speech(settings: ConnectionSettings, texts: Texts): MelsecOptions {
   const number = (field: TextField) => wholeNumber(settings, field, texts)
   return {
     ...present({

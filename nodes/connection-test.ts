@@ -162,7 +162,7 @@ function peerOf({ transport = 'tcp', host, port }: MelsecClientOptions): string 
   return `${transport} ${host}:${port}`
 }
 
-function optionsIn(RED: NodeAPI, id: string, given: StoredSettings, texts: Texts): MelsecClientOptions {
+function optionsIn(RED: NodeAPI, id: string, given: StoredSettings, texts: Texts): ReturnType<typeof optionsOf> {
   const settings = settingsOf(given, { texts, resolve: resolverOf(RED, RED.nodes.getNode(id), texts) })
   // The test is what finds the series out, so it does not need it.
   return optionsOf(settings.profile === '' ? { ...settings, profile: 'generic' } : settings, texts)

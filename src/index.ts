@@ -61,8 +61,17 @@ export type {
 } from './client/melsec/control'
 export { createMelsecClient } from './client/melsec/melsec-client'
 export type { RequestExplanation } from './client/melsec/named-request'
-export type { MelsecClientOptions } from './client/melsec/options'
+export type {
+  MelsecClientOptions,
+  MelsecOptions,
+  NetworkPlc,
+  PlcOnLine,
+  RouteOptions,
+  SerialPlc,
+} from './client/melsec/options'
 export { type ProbeKind, probeKinds } from './client/melsec/probes'
+export { createMelsecLine, type MelsecLine, type MelsecLineOptions } from './client/melsec/serial-line'
+export type { SerialFrameDetails, SerialLineFormat, SerialPortOptions } from './client/melsec/serial-options'
 export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
@@ -125,8 +134,9 @@ export type { RemedyName } from './melsec/end-codes/remedies'
 export type { Texts } from './melsec/end-codes/texts'
 export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/extend-unit'
 export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file/time'
-export { type FrameName, frameNames } from './melsec/frame/frames'
+export { type EthernetFrameName, ethernetFrameNames, type FrameName, frameNames } from './melsec/frame/frames'
 export { type ModuleIoNumber, moduleIoNumbers, type Route } from './melsec/frame/route'
+export type { SerialFormat, SerialFrameName } from './melsec/frame/serial-frames'
 export { type Model, modelCodes, modelOf, type Series } from './melsec/model-code'
 export { profiles, resolveProfile } from './melsec/profiles/info'
 export {
@@ -148,9 +158,20 @@ export {
   type TransportName,
   transportNames,
 } from './melsec/profiles/profile'
+export type { SerialFacts } from './melsec/profiles/serial-facts'
 export type { ExchangeOptions } from './melsec/protocol'
 export { isPortLocked } from './melsec/remote-password'
+export type {
+  ChannelDevices,
+  ChannelNumber,
+  CpuChannels,
+  Fx3Aliases,
+  Fx5ChannelDevices,
+  SerialChannels,
+  SpecialDevice,
+} from './melsec/serial-channels'
 export type { Clock, TimerOptions } from './transport/clock'
+export type { BaudRate, SerialOptions } from './transport/serial'
 export type { OpenTransport, Transport, TransportHandlers } from './transport/transport'
 export type { TextName, TypeToValue } from './value/type'
 export {

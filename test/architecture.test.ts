@@ -216,7 +216,6 @@ const FOR_TESTS: readonly string[] = [
   'serialRoute',
   'endCodeTables',
   'protocolOver1c',
-  'serialProfiles',
   'serialTransport',
   'lineTime',
   'computerLinkFrame',

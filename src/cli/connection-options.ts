@@ -110,7 +110,10 @@ export const wRadixOption = () =>
     "W is written in decimal (10, as SLMP inverters are said to) or hexadecimal (16); default: the profile's",
   ).argParser(wRadix)
 
-export const frameOption = (description: string) => choice('--frame <name>', description, frameNames)
+/** `names`: the frames that make sense there. */
+export function frameOption<N extends FrameName>(description: string, names: readonly N[]): Option {
+  return choice('--frame <name>', description, names)
+}
 
 /** Adds the options that say which PLC. */
 export function addConnectionOptions(command: Command): Command {
@@ -128,7 +131,7 @@ export function addConnectionOptions(command: Command): Command {
     )
     .addOption(new Option('--udp', 'UDP; without it TCP'))
     .addOption(profileOption().default('generic'))
-    .addOption(frameOption("frame; default: the profile's"))
+    .addOption(frameOption("frame; default: the profile's", frameNames))
   addCodeOptions(command)
   return command
     .addOption(choice('--ascii-word-order <order>', 'labels in ASCII code: order of the words of a value', ORDERS))

@@ -9,7 +9,7 @@ import {
   plantVariantOf,
   startDemoPlant,
 } from '../entry/simulator'
-import type { FrameName, ProfileId } from '../index'
+import { type EthernetFrameName, ethernetFrameNames, type ProfileId } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addCodeOptions, frameOption, jsonOption, profileOption, simulatedPassword, whole } from './connection-options'
 import { drivesOf } from './drive-option'
@@ -41,7 +41,7 @@ interface SimulateOptions {
   readonly udpPort?: number
   readonly tcp: boolean
   readonly udp: boolean
-  readonly frame?: FrameName
+  readonly frame?: EthernetFrameName
   readonly ascii?: boolean
   readonly asciiXy?: 'octal' | 'hexadecimal'
   readonly asciiZr?: 'decimal' | 'hexadecimal'
@@ -82,7 +82,7 @@ export const simulateCommand: MakeCommand = (run) => {
     .addOption(new Option('--udp-port <number>', 'another UDP port').argParser(whole(0, 65535)))
     .option('--no-tcp', 'no TCP')
     .option('--no-udp', 'no UDP')
-    .addOption(frameOption('take this frame only; default: all of the profile'))
+    .addOption(frameOption('take this frame only; default: all of the profile', ethernetFrameNames))
   addCodeOptions(command)
   command
     .option('--plant', 'run the demo plant in it: a mixing tank')

@@ -7,6 +7,8 @@ import type { DeviceForm } from './device/device-form'
 import type { FrameName } from './frame/frames'
 import type { Route } from './frame/route'
 import type { LineCost } from './line-cost'
+import type { SerialHead } from './frame/serial-frames'
+import type { SerialFrameOptions } from './frame/serial-framing'
 import type { Profile } from './profiles/profile'
 import type { ExchangeOptions } from './protocol'
 
@@ -20,6 +22,16 @@ export interface ProtocolOptions {
   readonly timer: number
   readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
   readonly asciiZr?: 'decimal' | 'hexadecimal' | undefined
+  /** Of a serial frame; needed by it, and of no meaning to others. */
+  readonly serial?: SerialProtocolOptions | undefined
+}
+
+/** What serial frames need beside what every frame does. */
+export interface SerialProtocolOptions extends Omit<SerialFrameOptions, 'frame'> {
+  /** Where requests go: instead of `route`. */
+  readonly head: SerialHead
+  /** 1C: ms before the PLC answers at the earliest, 0 to 150 in steps of 10. */
+  readonly messageWait: number
 }
 
 /** A frame that came unasked. */
@@ -53,6 +65,8 @@ export interface ClientProtocol {
   bodyBytes<C extends Command>(command: C, message: RequestOf<C>, form: DeviceForm): number
   /** Where every byte takes time; absent where a request costs the same whatever it carries. */
   readonly lineCost?: LineCost | undefined
+  /** The command as the frame says it, with its number, as people find it in the manual: `Read Type Name (0101)`. */
+  nameOf(command: Command): string
   /** Reads a frame that came unasked; absent where none ever does. */
   readonly readUnasked?: (frame: RequestFrame) => UnaskedFrame
   /** Bytes of the frame of an answer with this body. */

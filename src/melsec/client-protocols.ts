@@ -2,6 +2,8 @@
 import { protocolOver1e } from './a-compatible/slmp-over-1e'
 import type { ClientProtocol, ProtocolOptions } from './client-protocol'
 import type { FrameName, SlmpFrameName } from './frame/frames'
+import { clientProtocolOver1c } from './one-c/slmp-over-1c'
+import { serialProtocol } from './serial-protocol'
 import { slmpProtocol } from './slmp-protocol'
 
 const protocols: Readonly<Record<FrameName, (options: ProtocolOptions) => ClientProtocol>> = {
@@ -9,6 +11,9 @@ const protocols: Readonly<Record<FrameName, (options: ProtocolOptions) => Client
   '4E': slmpIn('4E'),
   ext: slmpIn('ext'),
   '1E': protocolOver1e,
+  '1C': clientProtocolOver1c,
+  '3C': (options) => serialProtocol({ ...options, frame: '3C' }),
+  '4C': (options) => serialProtocol({ ...options, frame: '4C' }),
 }
 
 function slmpIn(frame: SlmpFrameName): (options: ProtocolOptions) => ClientProtocol {

@@ -2,41 +2,44 @@
 // 18.6 and 18.8). All are read only, but for the station number where it is latched.
 
 /** A special device by its number. */
-interface Special {
+export interface SpecialDevice {
+  /** Relay or register. */
   readonly device: 'SM' | 'SD'
+  /** Its number. */
   readonly number: number
 }
 
-const sm = (number: number): Special => ({ device: 'SM', number })
-const sd = (number: number): Special => ({ device: 'SD', number })
+const sm = (number: number): SpecialDevice => ({ device: 'SM', number })
+const sd = (number: number): SpecialDevice => ({ device: 'SD', number })
 
-type ChannelNumber = 1 | 2 | 3 | 4
+/** Number of a serial channel. */
+export type ChannelNumber = 1 | 2 | 3 | 4
 
 /** What a channel tells of itself. */
 export interface ChannelDevices {
   /** Is set by an error, and reset by STOP to RUN, power, reset or SM50 only, even when communication is right again. */
-  readonly error: Special
+  readonly error: SpecialDevice
   /** Code of the last error, as 7001H and 7010H; kept as long as `error` is. */
-  readonly errorCode: Special
+  readonly errorCode: SpecialDevice
   /** The channel is set to MC protocol. */
-  readonly mcProtocol: Special
+  readonly mcProtocol: SpecialDevice
   /** The global signal, by GW of 1C. */
-  readonly globalSignal: Special
+  readonly globalSignal: SpecialDevice
   /** Function of the channel, as it runs. */
-  readonly mode: Special
+  readonly mode: SpecialDevice
 }
 
 /** Beside them on FX5 itself. */
 export interface Fx5ChannelDevices extends ChannelDevices {
   /** Parameters: b0 data length, b1 and b2 parity, b3 stop bit, b4 to b7 speed, b13 sum check. */
-  readonly settings: Special
+  readonly settings: SpecialDevice
   /** The station number in `station` counts, not the parameter. */
-  readonly stationLatched: Special
-  readonly station: Special
+  readonly stationLatched: SpecialDevice
+  readonly station: SpecialDevice
   /** Message format: 0 and 3 formats 1 and 4 with X and Y octal, 4 format 5, 5 and 6 formats 1 and 4 with them hexadecimal. */
-  readonly format: Special
+  readonly format: SpecialDevice
   /** ms between characters until a message counts as broken off. */
-  readonly timeout: Special
+  readonly timeout: SpecialDevice
 }
 
 function devicesOf(channel: ChannelNumber): Fx5ChannelDevices {

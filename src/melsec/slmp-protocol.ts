@@ -2,6 +2,7 @@
 import { ProtocolError } from '../errors'
 import type { RequestFrame } from '../link/link'
 import type { ClientProtocol, ProtocolOptions, UnaskedFrame } from './client-protocol'
+import { nameOfCommand } from './commands/command-name'
 import { slmpExplainer } from './explain/slmp-explainer'
 import type { SlmpFrameName } from './frame/frames'
 import { ownStation, type Route } from './frame/route'
@@ -36,7 +37,8 @@ export function slmpProtocol(options: SlmpOptions): ClientProtocol {
     bodyBytes: (command, message, form) => protocol.bodyBytes(command, message, form),
     readUnasked: (unasked) => read(framing, options, unasked),
     answerBytes: (body) => protocol.answerBytes(body),
-    explainer: (shownAs) => slmpExplainer({ ...options, ...shownAs }),
+    nameOf: nameOfCommand,
+    explainer: (shownAs) => slmpExplainer({ ...options, framing, ...shownAs }),
   }
 }
 

@@ -3,7 +3,7 @@ import { type DataCode, failAt, uintAt } from '../codec/codec'
 import { PlcError } from '../errors'
 import type { BodyLength, Framing, RequestFrame, Scanned } from '../link/link'
 import { frame1e, type Head1e } from '../melsec/frame/frame-1e'
-import { type FrameName, frameFacts, type SlmpFrameName, slmpFrameNames } from '../melsec/frame/frames'
+import { type EthernetFrameName, frameFacts, type SlmpFrameName, slmpFrameNames } from '../melsec/frame/frames'
 import { type SlmpFraming, type SlmpHead, slmpFraming } from '../melsec/frame/slmp-frame'
 
 /** A head that says in which frame it came, so that the answer goes out in the same one. */
@@ -19,14 +19,14 @@ const LAST_COMMAND_1E = 0x1f
  * `unreadable` is told of bytes that are none of them; nothing answers those. `length1e`: where a 1E request ends.
  */
 export function anyFrame(
-  frames: readonly FrameName[],
+  frames: readonly EthernetFrameName[],
   code: DataCode,
   unreadable: (bytes: Buffer) => void,
   length1e: BodyLength<Head1e> = () => undefined,
 ): Framing<AnyHead> {
   const framings = slmpFramings(code)
   const aCompatible = frame1e(code)
-  const read = (name: FrameName, bytes: Buffer): Scanned<RequestFrame<AnyHead>> | undefined => {
+  const read = (name: EthernetFrameName, bytes: Buffer): Scanned<RequestFrame<AnyHead>> | undefined => {
     if (name === '1E') {
       check1e(bytes, code)
       const scanned = aCompatible.request.scan(bytes, length1e)

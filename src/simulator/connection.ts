@@ -4,9 +4,9 @@ import { type Effect, type Message, withoutSecrets } from '../codec/codec'
 import { type Framing, Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'
+import type { EthernetFrameName } from '../melsec/frame/frames'
 import { ownStation, type Route } from '../melsec/frame/route'
 import { writeOnDemand } from '../melsec/on-demand'
-import type { FrameName } from '../melsec/profiles/profile'
 import type { Clock } from '../transport/clock'
 import type { ServerConnection } from '../transport/transport'
 import { type AnyHead, anyFrame } from './any-frame'
@@ -29,7 +29,7 @@ export interface RequestEvent {
   /** The client, e.g. `127.0.0.1:50231`. */
   readonly remote: string
   /** Frame it came in. */
-  readonly frame: FrameName
+  readonly frame: EthernetFrameName
   /** Name of the command; undefined when it is none that is declared, or its data are wrong. */
   readonly command: CommandName | undefined
   /** What the command does; undefined when it is none that is declared. */
@@ -44,7 +44,7 @@ export interface RequestEvent {
 export interface Shared {
   readonly plc: Plc
   readonly ports: Ports
-  readonly frames: readonly FrameName[]
+  readonly frames: readonly EthernetFrameName[]
   readonly faults: Faults
   readonly clock: Clock
   /** ms from a request to the END processing that answers it, in RUN. */
@@ -75,7 +75,7 @@ export class SimulatedConnection {
   #requests = 0
   readonly #framing: Framing<AnyHead>
   /** Of the last request. */
-  #spoken: FrameName | undefined
+  #spoken: EthernetFrameName | undefined
   /** An answer is going out in pieces: what is unasked comes behind it. */
   #inPieces = false
   #unasked: Buffer[] = []

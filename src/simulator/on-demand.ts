@@ -2,10 +2,10 @@
 import type { DataCode } from '../codec/codec'
 import { RequestError } from '../errors'
 import { bytesOfWords } from '../melsec/commands/on-demand'
+import type { EthernetFrameName } from '../melsec/frame/frames'
 import { ownStation } from '../melsec/frame/route'
 import type { SlmpHead } from '../melsec/frame/slmp-frame'
 import { writeOnDemand } from '../melsec/on-demand'
-import type { FrameName } from '../melsec/profiles/profile'
 import type { AnyHead } from './any-frame'
 
 /** Bytes, low byte of each word first; or words, 0 to 65535 each. */
@@ -50,6 +50,6 @@ export function chosen<C extends { readonly id: number }>(all: Iterable<C>, { co
 }
 
 /** What stands in front of a body that nobody asked for. A 1E frame cannot carry one. */
-export function unaskedHead(frame: FrameName): Extract<AnyHead, { readonly head: SlmpHead }> | undefined {
+export function unaskedHead(frame: EthernetFrameName): Extract<AnyHead, { readonly head: SlmpHead }> | undefined {
   return frame === '1E' ? undefined : { frame, head: { ...ownStation, timer: 0 } }
 }

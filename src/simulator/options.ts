@@ -3,11 +3,10 @@ import { badOption, oneOf, wholeNumber } from '../basics/option-checks'
 import type { DataCode } from '../codec/codec'
 import type { OddBits } from '../melsec/a-compatible/rules'
 import { type DeviceName, findDevice } from '../melsec/device/device'
-import { frameFacts } from '../melsec/frame/frames'
+import { type EthernetFrameName, frameFacts, isEthernetFrame } from '../melsec/frame/frames'
 import { modelOf } from '../melsec/model-code'
 import {
   asciiXyOf,
-  type FrameName,
   type Profile,
   type ProfileId,
   type ProfileInfo,
@@ -39,7 +38,7 @@ export interface PlcSimulatorOptions {
   /** Communication data code of the port. The other one is answered by silence. Default `binary`. */
   readonly code?: DataCode
   /** Frames the port takes, told apart by their subheaders. Default: all of the profile that the code has. */
-  readonly frames?: readonly FrameName[]
+  readonly frames?: readonly EthernetFrameName[]
   /** ASCII code: the port's setting, where the family has one. Default `octal` on iQ-F. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
   /** ASCII code: digits of ZR. Default `decimal`. */
@@ -105,7 +104,7 @@ export interface PlcSimulatorOptions {
 export interface SimulatorSettings {
   readonly profile: Profile
   readonly code: DataCode
-  readonly frames: readonly FrameName[]
+  readonly frames: readonly EthernetFrameName[]
   readonly asciiXy: 'octal' | 'hexadecimal'
   readonly asciiZr: 'decimal' | 'hexadecimal'
   readonly oddBits: OddBits
@@ -181,8 +180,12 @@ function digitsOf(profile: Profile, given: PlcSimulatorOptions['asciiXy']): Simu
   return asciiXyOf(profile, asciiXy) ?? (profile.xyRadix === 8 ? 'octal' : 'hexadecimal')
 }
 
-function framesOf(profile: Profile, code: DataCode, frames?: readonly FrameName[]): readonly FrameName[] {
-  const possible = profile.frames.filter((frame) => frameFacts[frame].codes.includes(code))
+function framesOf(
+  profile: Profile,
+  code: DataCode,
+  frames?: readonly EthernetFrameName[],
+): readonly EthernetFrameName[] {
+  const possible = profile.frames.filter(isEthernetFrame).filter((frame) => frameFacts[frame].codes.includes(code))
   if (frames?.length === 0) badOption('frames', 'A port takes at least one frame.')
   return frames === undefined ? possible : frames.map((frame) => oneOf('frames', frame, possible))
 }

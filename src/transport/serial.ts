@@ -7,6 +7,7 @@ import type { OpenTransport, Transport, TransportHandlers } from './transport'
 
 /** What the serial port of an FX5 takes (FX5 communication manual 34.1); whoever speaks to others may need no more. */
 export const baudRates = [300, 600, 1200, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200] as const
+/** Bits per second. */
 export type BaudRate = (typeof baudRates)[number]
 
 const DATA_LENGTHS = [7, 8] as const

@@ -1,5 +1,5 @@
 /** The ways to speak to a PLC that the campaign tries, each with a client and a PLC of its own. */
-import type { MelsecClientOptions } from '../../src/index'
+import type { MelsecOptions, NetworkPlc } from '../../src/index'
 import type { Model } from './answers'
 import type { Code } from './bytes'
 import type { Request } from './request'
@@ -67,7 +67,7 @@ export const TIMEOUT = 40
 export function clientOptions(
   { transport, frame, code, profile, inFlight }: Configuration,
   random: () => number,
-): Omit<MelsecClientOptions, 'port' | 'localPort'> {
+): Omit<MelsecOptions & NetworkPlc, 'port' | 'localPort'> {
   return {
     host: '127.0.0.1',
     transport,

@@ -5,7 +5,7 @@ import { join } from 'node:path'
 import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { commands } from '../../src/entry/codec'
 import { createPlcSimulator } from '../../src/entry/simulator'
-import { createMelsecClient, type MelsecClient } from '../../src/index'
+import { createMelsecClient, type MelsecClient, type MelsecOptions } from '../../src/index'
 import { build, example, type Running, run, start, startWith } from './cli'
 import { runHere } from './in-process'
 
@@ -27,7 +27,7 @@ async function simulate(...args: readonly string[]): Promise<{ readonly program:
   return { program, port: Number(port) }
 }
 
-function clientOf(port: number, options: Partial<Parameters<typeof createMelsecClient>[0]> = {}): MelsecClient {
+function clientOf(port: number, options: Partial<MelsecOptions> = {}): MelsecClient {
   const client = createMelsecClient({ host: '127.0.0.1', port, profile: 'iq-r', ...options })
   clients.push(client)
   return client

@@ -2,7 +2,7 @@
 import { afterEach, describe, expect, test } from '@jest/globals'
 import type { MelsecClient } from '../../src/client/melsec/client'
 import { createMelsecClient } from '../../src/client/melsec/melsec-client'
-import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import type { MelsecOptions, NetworkPlc } from '../../src/client/melsec/options'
 import { PlcError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
@@ -18,7 +18,7 @@ const memory = {
 } as const
 
 async function pair(
-  given: Partial<MelsecClientOptions> = {},
+  given: Partial<MelsecOptions & NetworkPlc> = {},
   plcGiven: PlcSimulatorOptions = {},
 ): Promise<{ plc: PlcSimulator; client: MelsecClient }> {
   const plc = createPlcSimulator({ profile: 'q', ...memory, ...plcGiven })

@@ -5,7 +5,7 @@
 import { afterEach, describe, expect, test } from '@jest/globals'
 import type { MelsecClient } from '../../src/client/melsec/client'
 import { createMelsecClient } from '../../src/client/melsec/melsec-client'
-import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import type { MelsecOptions, NetworkPlc } from '../../src/client/melsec/options'
 import { EndCodeError } from '../../src/errors'
 import type { Command } from '../../src/melsec/commands/command'
 import { describeCommand } from '../../src/melsec/commands/command-name'
@@ -20,11 +20,13 @@ afterEach(async () => {
 const ELSEWHERE = { route: { network: 1, station: 3 } } as const
 const PASSWORD = 'Secret-1'
 
-async function pair(given: Partial<MelsecClientOptions> = {}): Promise<{ plc: PlcSimulator; client: MelsecClient }> {
+async function pair(
+  given: Partial<MelsecOptions & NetworkPlc> = {},
+): Promise<{ plc: PlcSimulator; client: MelsecClient }> {
   const { code = 'binary', transport = 'tcp' } = given
   const plc = createPlcSimulator({ profile: 'generic', bufferMemory: 1024, code, password: PASSWORD })
   await plc.listen()
-  const { host, port } = plc[transport] ?? { host: '', port: 0 }
+  const { host, port } = plc[transport === 'udp' ? 'udp' : 'tcp'] ?? { host: '', port: 0 }
   const permitted = { allowWrites: true, allowControl: true } as const
   const client = createMelsecClient({ host, port, profile: 'generic', ...ELSEWHERE, ...permitted, ...given })
   ended.push(

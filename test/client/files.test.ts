@@ -9,7 +9,8 @@ import {
   type FileProgress,
   fileTimeOf,
   type MelsecClient,
-  type MelsecClientOptions,
+  type MelsecOptions,
+  type NetworkPlc,
   RequestError,
 } from '../../src/index'
 
@@ -25,7 +26,7 @@ interface Joined {
 
 async function join(
   profile: 'iq-r' | 'q' | 'l' | 'iq-f',
-  client: Partial<MelsecClientOptions> = {},
+  client: Partial<MelsecOptions & NetworkPlc> = {},
   options: Partial<PlcSimulatorOptions> = {},
 ): Promise<Joined> {
   const code = client.code ?? 'binary'

@@ -8,7 +8,7 @@ import { createServer, type Socket } from 'node:net'
 import { describe, expect, test } from '@jest/globals'
 import { explainFrame } from '../../src/entry/codec'
 import { createPlcSimulator } from '../../src/entry/simulator'
-import { createMelsecClient, type MelsecClient, type MelsecClientOptions } from '../../src/index'
+import { createMelsecClient, type MelsecClient, type MelsecOptions, type NetworkPlc } from '../../src/index'
 
 type Code = 'binary' | 'ascii'
 const CODES = ['binary', 'ascii'] as const
@@ -31,7 +31,7 @@ async function withTcp(
   code: Code,
   answer: Answer,
   run: (client: MelsecClient, requests: readonly string[]) => Promise<void>,
-  options: Partial<MelsecClientOptions> = {},
+  options: Partial<MelsecOptions & NetworkPlc> = {},
 ): Promise<void> {
   const requests: string[] = []
   const server = createServer((socket) => {

@@ -5,7 +5,8 @@ import {
   createMelsecClient,
   EndCodeError,
   type MelsecClient,
-  type MelsecClientOptions,
+  type MelsecOptions,
+  type NetworkPlc,
   RequestError,
 } from '../../src/index'
 
@@ -42,7 +43,7 @@ interface Joined {
   readonly asked: string[]
 }
 
-async function joined(options: Partial<MelsecClientOptions> = {}): Promise<Joined> {
+async function joined(options: Partial<MelsecOptions & NetworkPlc> = {}): Promise<Joined> {
   const code = options.code ?? 'binary'
   const plc = createPlcSimulator({ profile: 'iq-r', code, labels, udp: false })
   await plc.listen()

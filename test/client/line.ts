@@ -1,5 +1,5 @@
 /** The whole line: a client and a simulated PLC, joined by real sockets on loopback. */
-import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import type { MelsecClientOptions, MelsecOptions, NetworkPlc } from '../../src/client/melsec/options'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
 import {
   createMelsecClient,
@@ -52,12 +52,12 @@ export interface Line extends Kind {
   readonly plc: PlcSimulator
   readonly client: MelsecClient
   /** Another client of the same PLC. */
-  another(options?: Partial<MelsecClientOptions>): MelsecClient
+  another(options?: Partial<MelsecOptions & NetworkPlc>): MelsecClient
 }
 
 export interface LineOptions {
   readonly plc?: PlcSimulatorOptions
-  readonly client?: Partial<MelsecClientOptions>
+  readonly client?: Partial<MelsecOptions & NetworkPlc>
 }
 
 /** Ample for loopback on a busy computer: for what is to be answered. */
@@ -68,7 +68,7 @@ export const ample = { timeout: AMPLE } as const
 export function clientOptions(
   { transport, frame, code, profile }: Kind,
   plc: PlcSimulator,
-  options: Partial<MelsecClientOptions> = {},
+  options: Partial<MelsecOptions & NetworkPlc> = {},
 ): MelsecClientOptions {
   const port = plc[transport]?.port
   if (port === undefined) throw new Error(`does not listen on ${transport}`)
@@ -96,7 +96,7 @@ export async function withLine(text: string, options: LineOptions, run: (line: L
   const plc = createPlcSimulator({ profile: wanted.profile, code: wanted.code, ...options.plc })
   await plc.listen()
   const clients: MelsecClient[] = []
-  const another = (more: Partial<MelsecClientOptions> = {}) => {
+  const another = (more: Partial<MelsecOptions & NetworkPlc> = {}) => {
     const client = createMelsecClient(clientOptions(wanted, plc, { ...options.client, ...more }))
     clients.push(client)
     return client

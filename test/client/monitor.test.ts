@@ -165,19 +165,23 @@ describe('read instead', () => {
     const plc = createPlcSimulator({ profile: 'iq-f' })
     await plc.listen()
     const line = kind('tcp 3E binary generic')
-    await withLine('tcp 3E binary generic', { client: { port: clientOptions(line, plc).port } }, async ({ client }) => {
-      plc.write('D0', 3)
-      plc.write('M5', true)
-      const monitor = client.monitor(['D0', 'M5'])
-      expect(monitor.mode).toBe('monitor')
-      const seen = watch({ plc })
-      expect(await values(monitor)).toEqual([3, true])
-      expect(monitor.mode).toBe('read')
-      expect(monitor.note).toContain('C059')
-      expect(seen.take()[0]).toBe('entryMonitorDevice')
-      expect(await values(monitor)).toEqual([3, true])
-      expect(seen.take()).not.toContain('entryMonitorDevice')
-    })
+    await withLine(
+      'tcp 3E binary generic',
+      { client: { port: clientOptions(line, plc).port ?? 0 } },
+      async ({ client }) => {
+        plc.write('D0', 3)
+        plc.write('M5', true)
+        const monitor = client.monitor(['D0', 'M5'])
+        expect(monitor.mode).toBe('monitor')
+        const seen = watch({ plc })
+        expect(await values(monitor)).toEqual([3, true])
+        expect(monitor.mode).toBe('read')
+        expect(monitor.note).toContain('C059')
+        expect(seen.take()[0]).toBe('entryMonitorDevice')
+        expect(await values(monitor)).toEqual([3, true])
+        expect(seen.take()).not.toContain('entryMonitorDevice')
+      },
+    )
     await plc.close()
   })
 

@@ -2,7 +2,7 @@
 import { afterEach, describe, expect, test } from '@jest/globals'
 import type { MelsecClient } from '../../src/client/melsec/client'
 import { createMelsecClient } from '../../src/client/melsec/melsec-client'
-import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import type { MelsecOptions, NetworkPlc } from '../../src/client/melsec/options'
 import { PlcError } from '../../src/errors'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
 
@@ -12,7 +12,7 @@ afterEach(async () => {
 })
 
 async function pair(
-  given: Partial<MelsecClientOptions> = {},
+  given: Partial<MelsecOptions & NetworkPlc> = {},
   plcGiven: PlcSimulatorOptions = {},
 ): Promise<{ plc: PlcSimulator; client: MelsecClient }> {
   const plc = createPlcSimulator({ profile: 'iq-r', ...plcGiven })

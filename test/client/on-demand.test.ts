@@ -5,7 +5,8 @@ import { createPlcSimulator } from '../../src/entry/simulator'
 import {
   createMelsecClient,
   type MelsecClient,
-  type MelsecClientOptions,
+  type MelsecOptions,
+  type NetworkPlc,
   type OnDemand,
   type OpenTransport,
   ProtocolError,
@@ -26,7 +27,10 @@ interface Told {
 }
 
 /** A client that is connected to a simulated PLC in memory, and somebody who can send to it as the PLC does. */
-async function connected(options: Partial<MelsecClientOptions>, run: (told: Told) => Promise<void>): Promise<void> {
+async function connected(
+  options: Partial<MelsecOptions & NetworkPlc>,
+  run: (told: Told) => Promise<void>,
+): Promise<void> {
   const plc = createPlcSimulator({ code: options.code ?? 'binary' })
   plc.write('D0', 5)
   const open = plc.connect()
@@ -178,7 +182,7 @@ test('a listener that throws takes nothing from the others', () =>
   }))
 
 describe('refused is', () => {
-  const make = (options: Partial<MelsecClientOptions>) =>
+  const make = (options: Partial<MelsecOptions & NetworkPlc>) =>
     createMelsecClient({ host: '127.0.0.1', port: 5010, profile: 'iq-f', ...options })
 
   test('listening with the 1E frame, which has no On-demand', () => {

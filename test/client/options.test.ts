@@ -1,6 +1,7 @@
 // The options of a client: what is filled in, and what is refused before anything is connected.
 import { describe, expect, test } from '@jest/globals'
-import { type MelsecClientOptions, settle } from '../../src/client/melsec/options'
+import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import { settle } from '../../src/client/melsec/settings'
 import { RequestError } from '../../src/errors'
 import { ownStation } from '../../src/melsec/frame/route'
 import { profileIds } from '../../src/melsec/profiles/profile'
@@ -17,6 +18,8 @@ describe('defaults', () => {
       transport: 'tcp',
       frame: '3E',
       code: 'binary',
+      serial: undefined,
+      serialLine: undefined,
       route: ownStation,
       timer: 0,
       xyRadix: 16,
@@ -107,7 +110,8 @@ describe('refused', () => {
     ['no port', { port: undefined }, 'port', 'port is undefined; it must be a whole number from 1 to 65535'],
     ['port 0', { port: 0 }, 'port', 'port is 0'],
     ['a port that is text', { port: '5007' }, 'port', 'port is 5007'],
-    ['another transport', { transport: 'serial' }, 'transport', 'must be tcp or udp'],
+    ['another transport', { transport: 'rs485' }, 'transport', 'must be tcp or udp or serial'],
+    ['a serial line without a port', { transport: 'serial' }, 'serial.path', 'give serial.path'],
     ['another profile', { profile: 'fx9' }, 'profile', `Choose one of: ${profileIds.join(', ')}`],
     ['another frame', { frame: '2E' }, 'frame', 'has no 2E frame'],
     ['a frame the family lacks', { profile: 'iq-f', frame: '4E' }, 'frame', 'has no 4E frame: use 3E'],

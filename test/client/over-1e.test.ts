@@ -1,7 +1,7 @@
 /** The client over 1E frames against the simulated iQ-F: typed items, control, and what 1E cannot do. */
 import { describe, expect, test } from '@jest/globals'
 import { createMelsecClient } from '../../src/client/melsec/melsec-client'
-import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import type { MelsecOptions, NetworkPlc } from '../../src/client/melsec/options'
 import { RequestError } from '../../src/errors'
 import type { MelsecClient, TraceEntry } from '../../src/index'
 import { commands } from '../../src/melsec/commands/commands'
@@ -17,11 +17,11 @@ interface Joined {
 async function joined(
   code: 'binary' | 'ascii',
   run: (joined: Joined) => Promise<void>,
-  options: Partial<MelsecClientOptions> = {},
+  options: Partial<MelsecOptions & NetworkPlc> = {},
 ): Promise<void> {
   const plc = createPlcSimulator({ profile: 'iq-f', code, frames: ['1E'] })
   await plc.listen()
-  const port = plc[options.transport ?? 'tcp']?.port ?? 0
+  const port = plc[options.transport === 'udp' ? 'udp' : 'tcp']?.port ?? 0
   const client = createMelsecClient({
     host: '127.0.0.1',
     port,
@@ -235,7 +235,7 @@ describe('what 1E cannot do is refused before anything is sent', () => {
   })
 
   test('families without it, and other stations', () => {
-    const open = (options: Partial<MelsecClientOptions>) => () =>
+    const open = (options: Partial<MelsecOptions & NetworkPlc>) => () =>
       createMelsecClient({ host: 'plc', port: 5007, frame: '1E', ...options })
     expect(open({ profile: 'iq-r' })).toThrow('no 1E frame')
     expect(open({ profile: 'iq-f', route: { network: 1, station: 3 } })).toThrow('connected station')

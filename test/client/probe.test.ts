@@ -3,7 +3,7 @@ import { createSocket } from 'node:dgram'
 import { once } from 'node:events'
 import { createServer } from 'node:net'
 import { describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient, type MelsecClientOptions } from '../../src/index'
+import { createMelsecClient, type MelsecClient, type MelsecOptions, type NetworkPlc } from '../../src/index'
 import { failureOf } from './line'
 
 /** `close`, `silence`, or bytes in hexadecimal digits. */
@@ -20,7 +20,7 @@ const commandOf = (frame: Buffer) => frame.readUInt16LE(11).toString(16).padStar
 async function withDevice(
   device: Device,
   run: (client: MelsecClient, asked: readonly string[]) => Promise<void>,
-  options: Partial<MelsecClientOptions> = {},
+  options: Partial<MelsecOptions & NetworkPlc> = {},
 ): Promise<void> {
   const asked: string[] = []
   const server = createServer((socket) => {

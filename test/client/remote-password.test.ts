@@ -3,7 +3,7 @@ import { inspect } from 'node:util'
 import { afterEach, describe, expect, test } from '@jest/globals'
 import type { MelsecClient } from '../../src/client/melsec/client'
 import { createMelsecClient } from '../../src/client/melsec/melsec-client'
-import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import type { MelsecOptions, NetworkPlc } from '../../src/client/melsec/options'
 import { ConnectionError, EndCodeError, PlcError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
@@ -25,13 +25,16 @@ interface Pair {
 }
 
 /** A client and a PLC on loopback. */
-async function pair(given: Partial<MelsecClientOptions> = {}, plcGiven: PlcSimulatorOptions = {}): Promise<Pair> {
+async function pair(
+  given: Partial<MelsecOptions & NetworkPlc> = {},
+  plcGiven: PlcSimulatorOptions = {},
+): Promise<Pair> {
   const { transport = 'tcp' } = given
   const plc = createPlcSimulator({ profile: 'iq-r', password: PASSWORD, ...plcGiven })
   await plc.listen()
   const seen: string[] = []
   plc.on('request', ({ command, endCode }) => void seen.push(`${command} ${endCode?.toString(16).toUpperCase()}`))
-  const { host, port } = plc[transport] ?? { host: '', port: 0 }
+  const { host, port } = plc[transport === 'udp' ? 'udp' : 'tcp'] ?? { host: '', port: 0 }
   const options = { host, port, profile: 'iq-r', password: PASSWORD, settleGap: 0, ...given } as const
   const client = createMelsecClient(options)
   ended.push(

@@ -17,7 +17,10 @@ function bench(
 ) {
   const framing = slmpFraming(frame, 'binary')
   const protocol = new MelsecProtocol({ framing, head, profile, code: 'binary' })
-  const tracer = new Tracer(slmpExplainer({ frame, code: 'binary', profile, ...options }), options.kind ?? 'stream')
+  const tracer = new Tracer(
+    slmpExplainer({ frame, framing, code: 'binary', profile, ...options }),
+    options.kind ?? 'stream',
+  )
   return {
     tracer,
     read: (number: number, serial = 0) =>

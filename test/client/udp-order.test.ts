@@ -5,7 +5,7 @@
 import { createSocket, type RemoteInfo, type Socket } from 'node:dgram'
 import { once } from 'node:events'
 import { afterEach, describe, expect, test } from '@jest/globals'
-import { createMelsecClient, type MelsecClient, type MelsecClientOptions } from '../../src/index'
+import { createMelsecClient, type MelsecClient, type MelsecOptions, type NetworkPlc } from '../../src/index'
 import { failureOf, until } from './line'
 
 interface Asked {
@@ -97,7 +97,7 @@ async function freePort(): Promise<number> {
   return port
 }
 
-async function line(frame: FrameUnderTest, options: Partial<MelsecClientOptions> = {}) {
+async function line(frame: FrameUnderTest, options: Partial<MelsecOptions & NetworkPlc> = {}) {
   const socket = await bound()
   cleanups.push(() => new Promise<void>((resolve) => socket.close(() => resolve())))
   const { read, typeName, client: kind } = frames[frame]

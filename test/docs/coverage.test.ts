@@ -2,7 +2,8 @@
 import { describe, expect, test } from '@jest/globals'
 import { parse } from 'acorn'
 import { parseItem } from '../../src/client/item/item'
-import { settle } from '../../src/client/melsec/options'
+import { settleSerialLine } from '../../src/client/melsec/serial-options'
+import { settle } from '../../src/client/melsec/settings'
 import * as address from '../../src/entry/address'
 import * as codec from '../../src/entry/codec'
 import * as simulator from '../../src/entry/simulator'
@@ -50,9 +51,23 @@ function unionOf(path: string, name: string): string[] {
 
 describe('options', () => {
   test('of the client are those in docs/client.md', () => {
-    expect(namesIn('docs/client.md', 'options: client').sort()).toEqual(
-      membersOf('src/client/melsec/options.ts', 'MelsecClientOptions').sort(),
-    )
+    const of = (name: string) => membersOf('src/client/melsec/options.ts', name)
+    const own = [...of('MelsecOptions'), ...of('NetworkPlc'), ...of('PlcOnLine')]
+    const all = new Set([...own, ...membersOf('src/client/melsec/serial-options.ts', 'SerialLineFormat')])
+    expect(namesIn('docs/client.md', 'options: client').sort()).toEqual([...all].sort())
+  })
+
+  test('of a serial port are those in docs/client.md, with their defaults', () => {
+    const rows = tableAfter('docs/client.md', 'options: serial')
+    const transport = membersOf('src/transport/serial.ts', 'SerialOptions')
+    const all = new Set([...transport, ...membersOf('src/client/melsec/serial-options.ts', 'SerialPortOptions')])
+    expect(rows.map(([name]) => codeOf(name)).sort()).toEqual([...all].sort())
+    const { port, recovery } = settleSerialLine({})
+    const settings: Readonly<Record<string, unknown>> = { ...port, ...recovery }
+    for (const [name, usual] of rows) {
+      const text = codeOf(usual)
+      if (text !== undefined) expect(`${name} ${text}`).toBe(`${name} ${String(settings[codeOf(name) ?? ''])}`)
+    }
   })
 
   test('of the client have the defaults in docs/client.md', () => {

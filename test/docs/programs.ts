@@ -92,7 +92,7 @@ export class Bench {
     const found = all.find(([simulator, port]) => port === options.port || simulator.tcp?.port === options.port)
     const endpoint = options.transport === 'udp' ? found?.[0].udp : found?.[0].tcp
     if (endpoint === undefined) throw new Error(`A program of the documentation asks for port ${options.port}.`)
-    return { ...options, ...endpoint }
+    return { ...options, ...endpoint, serial: undefined, line: undefined }
   }
 }
 

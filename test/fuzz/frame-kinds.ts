@@ -10,13 +10,14 @@ import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
 import { explainFrame } from '../../src/melsec/explain/frame'
 import type { ExplainFrameOptions } from '../../src/melsec/explain/options'
+import { type EthernetFrameName, isEthernetFrame, type SlmpFrameName } from '../../src/melsec/frame/frames'
 import { ownStation } from '../../src/melsec/frame/route'
 import { serialRoute } from '../../src/melsec/frame/serial-frames'
 import { type SerialFrameOptions, serialFraming } from '../../src/melsec/frame/serial-framing'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { oneCCommands } from '../../src/melsec/one-c/commands'
 import { oneCProtocol } from '../../src/melsec/one-c/protocol'
-import type { FrameName, ProfileId } from '../../src/melsec/profiles/profile'
+import type { ProfileId } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 import { lenient } from '../simulator/support'
@@ -37,7 +38,7 @@ export interface Spoken<H extends Head> {
   /** Where the frame has no room for others. */
   readonly endCodes?: readonly number[]
   /** Simulated PLCs that take it. */
-  readonly plc?: { readonly profile: ProfileId; readonly frames: readonly FrameName[] }
+  readonly plc?: { readonly profile: ProfileId; readonly frames: readonly EthernetFrameName[] }
 }
 
 /** Hides the type of the head: each kind has its own. */
@@ -50,9 +51,7 @@ function kind<H extends Head>(name: string, make: () => Spoken<H>): FrameKind {
   return { name, use: (run) => run(make()) }
 }
 
-type SlmpName = Exclude<FrameName, '1E'>
-
-function slmp(frame: SlmpName, code: DataCode): FrameKind {
+function slmp(frame: SlmpFrameName, code: DataCode): FrameKind {
   return kind(`${frame} ${code}`, () => {
     const protocol = new MelsecProtocol({
       framing: slmpFraming(frame, code),
@@ -154,15 +153,17 @@ function headed<H extends Head>(
 }
 
 /** Every frame that a family speaks, so that a new one is here without being written down. */
-const names: readonly FrameName[] = [...new Set(Object.values(profiles).flatMap(({ frames }) => frames))]
+const names: readonly EthernetFrameName[] = [
+  ...new Set(Object.values(profiles).flatMap(({ frames }) => frames.filter(isEthernetFrame))),
+]
 
-function kindsOf(name: FrameName): FrameKind[] {
+function kindsOf(name: EthernetFrameName): FrameKind[] {
   if (name !== '1E') return CODES.filter((code) => exists(name, code)).map((code) => slmp(name, code))
   return CODES.flatMap((code) => (['iq-f', 'fx3'] as const).map((family) => aCompatible(code, family)))
 }
 
 /** Not every frame has both codes. */
-function exists(name: SlmpName, code: DataCode): boolean {
+function exists(name: SlmpFrameName, code: DataCode): boolean {
   try {
     return slmpFraming(name, code) !== undefined
   } catch (error) {

@@ -173,6 +173,18 @@ const fx3: Table = {
   'writeBlock, points of one block': {},
 }
 
+/** The figures of one code in both. */
+function alike(table: Table, which: 'binary' | 'ascii'): Table {
+  const entries = Object.entries(table).map(([counted, forms]) => {
+    const figures = Object.entries(forms).map(([form, [binary, ascii]]) => {
+      const max = which === 'binary' ? binary : ascii
+      return [form, [max, max]]
+    })
+    return [counted, Object.fromEntries(figures)]
+  })
+  return Object.fromEntries(entries)
+}
+
 const tables: Readonly<Record<ProfileId, Table>> = {
   'iq-r': iqR,
   'iq-f': iqF,
@@ -182,6 +194,17 @@ const tables: Readonly<Record<ProfileId, Table>> = {
   'q-e71': qAndL,
   l: qAndL,
   fx3,
+  // Not halved in ASCII code (43.2).
+  'fx5-serial': {
+    ...alike(iqF, 'binary'),
+    // With an extension all points count double there.
+    'writeBlock, points of one block': { short: [756, 756], extendedShort: [376, 376], extendedLong: [376, 376] },
+  },
+  'fx3-serial': { ...fx3, writeRandomBits: { short: [20, 20], long: [20, 20] } },
+  // Not printed: the lower figures.
+  'iq-r-c24': alike(iqR, 'ascii'),
+  'q-c24': alike(qAndL, 'ascii'),
+  'l-c24': alike(qAndL, 'ascii'),
   'remote-head': iqR,
   'nz2gf-etb': qAndL,
   generic,

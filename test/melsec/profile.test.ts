@@ -34,6 +34,7 @@ function caught(run: () => unknown): RequestError {
 
 /** Whose numbers its end codes are. */
 function familyOf({ frames }: Profile): EndCodeFamily {
+  if (frames.every((frame) => frame === '1C')) return '1C'
   return frames.every((frame) => frame === '1E') ? '1E' : 'slmp'
 }
 
@@ -74,9 +75,9 @@ describe('every profile', () => {
   test.each(all)('$id: defaults are among what it has', (profile) => {
     expect(profile.frames).toContain(profile.frame)
     expect(profile.codes).toContain(profile.code)
-    expect(profile.code).toBe('binary')
+    expect(profile.code).toBe(profile.serial === undefined ? 'binary' : 'ascii')
     expect(profile.forms).toContain(profile.form)
-    expect(profile.transports).toEqual(['tcp', 'udp'])
+    expect(profile.transports).toEqual(profile.serial === undefined ? ['tcp', 'udp'] : ['serial', 'tcp'])
     expect(profile.id).toBe(profileIds.find((id) => profiles[id] === profile))
   })
 
@@ -176,9 +177,9 @@ describe('every profile', () => {
   })
 
   test.each(all)(
-    '$id: 1E facts where it has the frame; its usual model is in the list of models, or has a name',
+    '$id: facts of 1E and 1C where it has one of the frames; its usual model is in the list of models, or has a name',
     (profile) => {
-      expect(profile.aCompatible !== undefined).toBe(profile.frames.includes('1E'))
+      expect(profile.aCompatible !== undefined).toBe(profile.frames.includes('1E') || profile.frames.includes('1C'))
       const { code, name } = profile.model
       expect(modelOf(code) === undefined).toBe(name !== undefined)
     },

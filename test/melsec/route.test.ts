@@ -1,6 +1,6 @@
 import { describe, expect, test } from '@jest/globals'
 import { RequestError } from '../../src/errors'
-import { type FrameName, frameNames } from '../../src/melsec/frame/frames'
+import { type EthernetFrameName, ethernetFrameNames } from '../../src/melsec/frame/frames'
 import {
   checkRouteOf,
   completeRoute,
@@ -123,7 +123,7 @@ describe('a route', () => {
 
 describe('a frame', () => {
   const takers = (part: Partial<Route>) =>
-    frameNames.filter((frame) => {
+    ethernetFrameNames.filter((frame) => {
       try {
         checkRouteOf(frame, completeRoute(part))
         return true
@@ -134,8 +134,8 @@ describe('a frame', () => {
     })
 
   test('takes the routes it can say without two meanings', () => {
-    expect(takers({})).toEqual(frameNames)
-    expect(takers({ network: 1, station: 120 })).toEqual(frameNames)
+    expect(takers({})).toEqual(ethernetFrameNames)
+    expect(takers({ network: 1, station: 120 })).toEqual(ethernetFrameNames)
     expect(takers({ network: 1, station: 125 })).toEqual(['3E', '4E', '1E'])
     expect(takers({ network: 1, station: 121 })).toEqual(['ext'])
     expect(takers({ network: 1, station: 125, extensionStation: 0 })).toEqual(['ext'])
@@ -144,7 +144,8 @@ describe('a frame', () => {
   })
 
   test('refuses the others with what to do', () => {
-    const refused = (frame: FrameName, part: Partial<Route>) => refusal(() => checkRouteOf(frame, completeRoute(part)))
+    const refused = (frame: EthernetFrameName, part: Partial<Route>) =>
+      refusal(() => checkRouteOf(frame, completeRoute(part)))
     expect(refused('3E', { network: 1, station: 121 })).toMatchObject({
       code: 'OUT_OF_RANGE',
       field: 'route.station',

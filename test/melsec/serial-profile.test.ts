@@ -8,16 +8,17 @@ import { commands } from '../../src/melsec/commands/commands'
 import type { DeviceForm } from '../../src/melsec/device/device-form'
 import { limitsOf } from '../../src/melsec/device/limit'
 import { explainEndCode } from '../../src/melsec/end-codes/end-code'
-import { serialRoute } from '../../src/melsec/frame/serial-frames'
+import { isSerialFrame, serialRoute } from '../../src/melsec/frame/serial-frames'
 import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { iqF } from '../../src/melsec/profiles/iq-f'
 import { profileOver1c } from '../../src/melsec/profiles/over-1c'
-import { doubtfulUse, exclusionOf, lackOf, profileIds } from '../../src/melsec/profiles/profile'
-import { serialProfiles } from '../../src/melsec/profiles/serial'
+import { doubtfulUse, exclusionOf, lackOf } from '../../src/melsec/profiles/profile'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
-const { set, channels } = serialProfiles['fx5-serial']
-const all = Object.values(serialProfiles)
+const set = profiles['fx5-serial']
+const channels = set.serial?.channels
+const all = Object.values(profiles).filter(({ serial }) => serial !== undefined)
 
 /** Everything inside a value, itself included. */
 function* parts(value: unknown): Generator<unknown> {
@@ -25,8 +26,12 @@ function* parts(value: unknown): Generator<unknown> {
   if (typeof value === 'object' && value !== null) for (const inner of Object.values(value)) yield* parts(inner)
 }
 
-test('nothing offers them: they are no profile that a user can name', () => {
-  for (const { id } of all) expect(profileIds).not.toContain(id)
+test('they are those of the FX5, the FX3 and the C24 modules, and nobody else has serial frames', () => {
+  expect(all.map(({ id }) => id)).toEqual(['fx5-serial', 'fx3-serial', 'iq-r-c24', 'q-c24', 'l-c24'])
+  for (const profile of Object.values(profiles)) {
+    expect(profile.frames.some(isSerialFrame)).toBe(profile.serial !== undefined)
+    expect(profile.transports.includes('serial')).toBe(profile.serial !== undefined)
+  }
 })
 
 test.each(all)('$id is plain data, and every figure says where it comes from', (profile) => {
@@ -35,11 +40,11 @@ test.each(all)('$id is plain data, and every figure says where it comes from', (
     expect(part).not.toBe('')
     expect(part).not.toBeUndefined()
   }
-  const { lacks, exclusions, limits, ranges, refusals, reach, remote } = profile.set
+  const { lacks, exclusions, limits, ranges, refusals, reach, remote } = profile
   for (const { source } of [...lacks, ...exclusions, ...limits, ranges, refusals, reach, remote]) {
     expect(source.length).toBeGreaterThan(3)
   }
-  for (const source of Object.values(profile.sources)) expect(source.length).toBeGreaterThan(10)
+  for (const source of Object.values(profile.sources)) expect(source.length).toBeGreaterThan(5)
 })
 
 describe('FX5 in 3C and 4C frames', () => {
@@ -165,7 +170,7 @@ describe('FX5 in 3C and 4C frames', () => {
 })
 
 test('in 1C frames the end codes are the two digits of NAK', () => {
-  for (const serial of all) {
+  for (const serial of all.filter(({ frames }) => frames.includes('1C'))) {
     const { refusals, lacks, limits, exclusions } = profileOver1c(serial)
     const { source, ...codes } = refusals
     expect(source).toContain('1C')

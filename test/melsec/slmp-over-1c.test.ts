@@ -12,13 +12,13 @@ import { type DeviceName, deviceInfo } from '../../src/melsec/device/device'
 import { isOneC, oneCCommands } from '../../src/melsec/one-c/commands'
 import { oneCRules } from '../../src/melsec/one-c/rules'
 import { protocolOver1c } from '../../src/melsec/one-c/slmp-over-1c'
-import { serialProfiles } from '../../src/melsec/profiles/serial'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { RMW } from '../client/plan-write-bench'
 import { framing1c, HEAD_1C, Plc1c } from './one-c-support'
 
-function over1c(id: keyof typeof serialProfiles = 'fx5-serial', asciiXy?: 'octal' | 'hexadecimal') {
+function over1c(id: 'fx5-serial' | 'fx3-serial' = 'fx5-serial', asciiXy?: 'octal' | 'hexadecimal') {
   return protocolOver1c({
-    profile: serialProfiles[id],
+    profile: profiles[id],
     framing: framing1c(),
     head: HEAD_1C,
     asciiXy: asciiXy ?? 'octal',
@@ -214,7 +214,7 @@ describe('a trace', () => {
 describe('FX3', () => {
   test('calls special relays M8000 too, and X and Y are octal always', () => {
     const fx3 = protocolOver1c({
-      profile: serialProfiles['fx3-serial'],
+      profile: profiles['fx3-serial'],
       framing: framing1c(),
       head: HEAD_1C,
     })

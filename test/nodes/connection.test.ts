@@ -1,7 +1,7 @@
 /** The connection node: shared, in the background, through deploys, failures and wrong settings. */
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { createPlcSimulator, type PlcSimulator } from '../../src/entry/simulator'
-import { profileIds } from '../../src/index'
+import { profileIds, profiles } from '../../src/index'
 import { type FlowNode, type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import {
   type CaughtError,
@@ -447,7 +447,9 @@ describe('the connection test of the editor', () => {
     await taken.close()
   })
 
-  test.each(profileIds)('series %s answers', async (profile) => {
+  const byEthernet = profileIds.filter((id) => profiles[id].serial === undefined)
+
+  test.each(byEthernet)('series %s answers', async (profile) => {
     const other = await startPlc({ profile })
     const { body } = await run({ settings: settings({ port: portOf(other), profile }) })
     expect(body).toMatchObject({ ok: true, roundTrip: { mean: expect.any(Number) } })

@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { writerOf } from '../../src/codec/codec'
 import { type CommandName, commands } from '../../src/melsec/commands/commands'
-import { frameFacts } from '../../src/melsec/frame/frames'
+import { frameFacts, slmpFrameNames } from '../../src/melsec/frame/frames'
 import { modelOf } from '../../src/melsec/model-code'
 import { type FrameName, lackOf, type Profile, profileIds } from '../../src/melsec/profiles/profile'
 import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
@@ -247,11 +247,11 @@ interface Variant {
   readonly code: 'binary' | 'ascii'
 }
 function isSlmp(frame: FrameName): frame is SlmpFrame {
-  return frame !== '1E'
+  return slmpFrameNames.some((name) => name === frame)
 }
 
 const variants: Variant[] = profileIds.flatMap((id) =>
-  // 1E has commands of its own: a-compatible.test.ts.
+  // 1E has commands of its own (a-compatible.test.ts), and serial frames are on lines.
   profiles[id].frames
     .filter(isSlmp)
     .flatMap((frame) => frameFacts[frame].codes.map((code) => ({ profile: profiles[id], frame, code }))),

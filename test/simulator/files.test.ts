@@ -2,7 +2,7 @@
 import { afterEach, describe, expect, test } from '@jest/globals'
 import type { MelsecClient } from '../../src/client/melsec/client'
 import { createMelsecClient } from '../../src/client/melsec/melsec-client'
-import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import type { MelsecOptions, NetworkPlc } from '../../src/client/melsec/options'
 import { EndCodeError, RequestError } from '../../src/errors'
 import { commands } from '../../src/melsec/commands/commands'
 import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
@@ -21,7 +21,7 @@ interface Pair {
 
 async function pair(
   options: PlcSimulatorOptions = {},
-  clientOptions: Partial<MelsecClientOptions> = {},
+  clientOptions: Partial<MelsecOptions & NetworkPlc> = {},
 ): Promise<Pair> {
   const plc = createPlcSimulator({ profile: 'iq-r', remoteOwner: 'connection', udp: false, ...options })
   open.push(plc)

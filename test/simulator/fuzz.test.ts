@@ -1,7 +1,7 @@
 import { describe, expect, test } from '@jest/globals'
 import * as fc from 'fast-check'
 import { commands } from '../../src/melsec/commands/commands'
-import { frameFacts } from '../../src/melsec/frame/frames'
+import { frameFacts, slmpFrameNames } from '../../src/melsec/frame/frames'
 import { slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { profileIds } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
@@ -37,7 +37,9 @@ describe.each(profileIds.filter((id) => profiles[id].frames.includes('3E')))('%s
     })
     void fc.assert(
       fc.property(fc.array(fc.oneof(request, damaged, bytes(60)), { maxLength: 6 }), (chunks) => {
-        const frames = profiles[id].frames.filter((name) => name !== '1E' && frameFacts[name].codes.includes(code))
+        const frames = slmpFrameNames.filter(
+          (name) => profiles[id].frames.includes(name) && frameFacts[name].codes.includes(code),
+        )
         const plc = createPlcSimulator({ profile: id, code, frames, clock: manualClock() })
         for (const kind of ['stream', 'datagram'] as const) {
           let received = Buffer.alloc(0)

@@ -7,10 +7,11 @@ import { Session } from '../../src/link/link'
 import type { Command, RequestOf, ResponseOf } from '../../src/melsec/commands/command'
 import type { DeviceForm } from '../../src/melsec/device/device-form'
 import { FORM_BITS } from '../../src/melsec/device/form'
+import type { SlmpFrameName } from '../../src/melsec/frame/frames'
 import { completeRoute, type Route } from '../../src/melsec/frame/route'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import { anyFiles } from '../../src/melsec/profiles/files'
-import type { FrameName, Profile } from '../../src/melsec/profiles/profile'
+import type { Profile } from '../../src/melsec/profiles/profile'
 import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
 import { type ExchangeOptions, MelsecProtocol } from '../../src/melsec/protocol'
 import {
@@ -40,7 +41,7 @@ export function lenient(profile: Profile): Profile {
 }
 
 /** Frames of the SLMP set. */
-export type SlmpFrame = Exclude<FrameName, '1E'>
+export type SlmpFrame = SlmpFrameName
 
 export interface AskerOptions {
   readonly frame?: SlmpFrame

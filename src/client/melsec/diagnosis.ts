@@ -8,7 +8,7 @@ import type { Silence } from '../connection/connection'
 
 export interface LinkSettings {
   readonly transport: TransportName
-  readonly port: number
+  readonly port: number | undefined
   readonly frame: FrameName
   /** Frames of the family, when it is known: another one is not proposed. */
   readonly frames?: readonly FrameName[]

@@ -7,7 +7,8 @@ import type { Connection } from '../connection/connection'
 import { Deadline } from '../connection/deadline'
 import type { FileParts } from '../file/files'
 import type { OpenFile } from '../file/open-file'
-import type { MelsecClientOptions, Settings } from './options'
+import type { MelsecClientOptions } from './options'
+import type { Settings } from './settings'
 
 /** What the client lends. */
 interface Lent {

@@ -31,7 +31,7 @@ import { type PlannedEntry, planWrite, type WriteCallOptions, type WriteOptions,
 import type { OpenCall } from '../plan/write-turns'
 import { type LabelLender, MixedItems, mixedMonitor, mixedReadPlan } from './mixed-read'
 import { type MixedEntry, MixedWrite } from './mixed-write'
-import type { Settings } from './options'
+import type { Settings } from './settings'
 
 const WRITE_OPTIONS: OptionNames<WriteOptions> = { readModifyWrite: true, allOrNothing: true }
 

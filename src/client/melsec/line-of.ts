@@ -1,20 +1,15 @@
 // What carries a client's bytes, from its settings.
 import type { ClientProtocol } from '../../melsec/client-protocol'
-import type { TransportName } from '../../melsec/profiles/profile'
-import type { EndpointOptions } from '../../transport/endpoint'
 import { tcpTransport } from '../../transport/tcp'
 import type { OpenTransport } from '../../transport/transport'
 import { udpTransport } from '../../transport/udp'
 import { Line } from '../connection/line'
 import { proofs } from './control'
-import type { MelsecClientOptions, Settings } from './options'
-
-const transports: Readonly<Record<TransportName, (endpoint: EndpointOptions) => OpenTransport>> = {
-  tcp: tcpTransport,
-  udp: udpTransport,
-}
+import type { MelsecClientOptions } from './options'
+import type { Settings } from './settings'
 
 export function lineOf(settings: Settings, options: MelsecClientOptions, protocol: ClientProtocol): Line {
+  if (settings.serialLine !== undefined) return settings.serialLine.line
   return new Line({
     ...settings,
     framing: protocol.framing,
@@ -23,9 +18,11 @@ export function lineOf(settings: Settings, options: MelsecClientOptions, protoco
   })
 }
 
+/** Of an Ethernet port: the settings have both. */
 function transportOf(
   { transport }: Settings,
-  { host, port, localAddress, localPort }: MelsecClientOptions,
+  { host = '', port = 0, localAddress, localPort }: MelsecClientOptions,
 ): OpenTransport {
-  return transports[transport]({ host, port, localAddress, localPort })
+  const endpoint = { host, port, localAddress, localPort }
+  return transport === 'udp' ? udpTransport(endpoint) : tcpTransport(endpoint)
 }

@@ -56,11 +56,12 @@ import {
   type RequestExplanation,
 } from './named-request'
 import { checkOnDemand, unsolicitedOf } from './on-demand'
-import { type MelsecClientOptions, type Settings, settle } from './options'
+import type { MelsecClientOptions } from './options'
 import { notPermitted, optionsOfMany, overUdp } from './permission'
 import { probesOf } from './probes'
 import { RemotePassword } from './remote-password'
 import type { SendCommand } from './send-command'
+import { type Settings, settle } from './settings'
 
 /** Node.js before 20.5 has no such symbol; programs for it bring one of this name. */
 const asyncDispose: typeof Symbol.asyncDispose = Symbol.asyncDispose ?? Symbol.for('Symbol.asyncDispose')

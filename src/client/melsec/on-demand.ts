@@ -4,7 +4,8 @@ import type { ClientProtocol, UnaskedFrame } from '../../melsec/client-protocol'
 import { wordsOfBytes } from '../../melsec/commands/on-demand'
 import { frameFacts } from '../../melsec/frame/frames'
 import type { OnDemand, UnsolicitedFrame } from './client-events'
-import type { MelsecClientOptions, Settings } from './options'
+import type { MelsecClientOptions } from './options'
+import type { Settings } from './settings'
 
 /** A frame that came unasked: the frame itself, and its data when it is On-demand that can be read. */
 export interface Unsolicited {

@@ -1,35 +1,55 @@
-// The options of a MELSEC client: defaults and checks. Everything is checked here, before a connection is tried.
-import { checkNames, oneOf, wholeNumber } from '../../basics/option-checks'
-import { shown } from '../../basics/show'
 import type { DataCode } from '../../codec/codec'
-import { RequestError } from '../../errors'
-import { frameFacts } from '../../melsec/frame/frames'
-import { checkRouteOf, completeRoute, isConnectedStation, ownStation, type Route } from '../../melsec/frame/route'
-import {
-  asciiXyOf,
-  type FrameName,
-  inFlightBound,
-  type Profile,
-  type ProfileId,
-  type ProfileInfo,
-  type ProfileOverrides,
-  type TransportName,
-  transportNames,
-} from '../../melsec/profiles/profile'
-import { resolveProfile } from '../../melsec/profiles/profiles'
-import { type Clock, realClock } from '../../transport/clock'
+import type { Route } from '../../melsec/frame/route'
+import type { FrameName, ProfileId, ProfileInfo, ProfileOverrides, TransportName } from '../../melsec/profiles/profile'
+import type { Clock } from '../../transport/clock'
 import type { OpenTransport } from '../../transport/transport'
-import { checkFormat, type ValueFormat } from '../../value/value'
-import type { LabelFormat } from '../label/item'
-import { checkProbe, type ProbeKind, probeKinds } from './probes'
+import type { ValueFormat } from '../../value/value'
+import type { ProbeKind } from './probes'
+import type { MelsecLine } from './serial-line'
+import type { SerialLineFormat, SerialPortOptions } from './serial-options'
+
+/** A PLC by a network: its own port, or the line of a serial device server. */
+export interface NetworkPlc {
+  /** Address or name of the PLC, or of the device server. */
+  readonly host: string
+  /** Port of an SLMP (MC protocol) entry of the PLC, or of the device server. */
+  readonly port: number
+  /** Of a device server: how long characters take on its line. */
+  readonly serial?: (SerialPortOptions & { readonly path?: undefined }) | undefined
+  /** Another way. */
+  readonly line?: undefined
+}
+
+/** A PLC by a serial port of this computer, alone on its line. */
+export interface SerialPlc {
+  /** The serial port. */
+  readonly serial: SerialPortOptions & { readonly path: string }
+  /** Another way. */
+  readonly host?: undefined
+  /** Another way. */
+  readonly port?: undefined
+  /** Another way. */
+  readonly line?: undefined
+}
+
+/** A PLC on a line that others share: the line says frame, format and sum check. */
+export interface PlcOnLine {
+  /** What `createMelsecLine()` gives. */
+  readonly line: MelsecLine
+  /** Of the line. */
+  readonly host?: undefined
+  /** Of the line. */
+  readonly port?: undefined
+  /** Of the line. */
+  readonly serial?: undefined
+}
 
 /** How to reach a MELSEC PLC and how to speak to it. Times in milliseconds. */
-export interface MelsecClientOptions {
-  /** Address or name of the PLC. */
-  readonly host: string
-  /** Port of an SLMP (MC protocol) entry of the PLC. */
-  readonly port: number
-  /** Default `tcp`. */
+export type MelsecClientOptions = MelsecOptions & (NetworkPlc | SerialPlc | PlcOnLine)
+
+/** How to speak to a MELSEC PLC, whatever way there is to it. Times in milliseconds. */
+export interface MelsecOptions extends Omit<SerialLineFormat, 'frame'> {
+  /** Default `tcp`; `serial` with `serial.path` or `line`. */
   readonly transport?: TransportName
   /** Address of this computer to send from; default: the system chooses it. */
   readonly localAddress?: string
@@ -41,7 +61,7 @@ export interface MelsecClientOptions {
   readonly profileOverrides?: ProfileOverrides
   /** Default: the profile's. */
   readonly frame?: FrameName
-  /** Data code of the PLC's port; default `binary`. */
+  /** Data code of the PLC's port; default `binary`. Of serial frames the format says it. */
   readonly code?: DataCode
   /** Digits of X and Y in ASCII code, as the port of an iQ-F is set; needed for its X and Y in ASCII code. Others have no such setting. */
   readonly asciiXy?: 'octal' | 'hexadecimal'
@@ -59,8 +79,13 @@ export interface MelsecClientOptions {
    * profile's, which is 16. Decimal in binary code only: nobody says which digits ASCII code takes then.
    */
   readonly wRadix?: 10 | 16
-  /** Station to speak to; default: the connected station. Stations above 120 need frame `ext`. */
-  readonly route?: Partial<Route>
+  /**
+   * Station to speak to; default: the connected station. Stations above 120 need frame `ext`. On a serial line `station` is
+   * that of the line (0), and what is behind it says `network`, `pc`, `moduleIo` and `multidrop`.
+   */
+  readonly route?: RouteOptions
+  /** 1C: time before the PLC answers at the earliest, 0 (default) to 150 in steps of 10; some converters need 70 or more. */
+  readonly messageWait?: number
   /** Time the PLC gives the request, a multiple of 250 up to 16383750; 0 = for ever. Default: the profile's. */
   readonly monitoringTimer?: number
   /** Default deadline of a call; 3000. */
@@ -101,44 +126,24 @@ export interface MelsecClientOptions {
   readonly random?: () => number
 }
 
-/** Options with every default filled in. */
-export interface Settings {
-  readonly transport: TransportName
-  readonly profile: Profile
-  readonly frame: FrameName
-  readonly code: DataCode
-  readonly asciiXy: 'octal' | 'hexadecimal' | undefined
-  readonly route: Route
-  /** In units of 250 ms. */
-  readonly timer: number
-  readonly xyRadix: 8 | 16
-  readonly wRadix: 10 | 16
-  /** Neither the profile nor the user says how X and Y are numbered. */
-  readonly xyUnknown: boolean
-  readonly timeout: number
-  readonly connectTimeout: number
-  readonly inFlight: number
-  readonly queueLimit: number
-  readonly allowWrites: boolean
-  readonly allowControl: boolean
-  readonly probe: ProbeKind
-  readonly gap: number
-  readonly format: ValueFormat
-  readonly labelFormat: LabelFormat
-  readonly first: number
-  readonly longest: number
-  readonly settleGap: number
-  readonly clock: Clock
-  readonly random: () => number
+/** The parts of a route; `pc` and `selfStation` stand in serial frames only. */
+export type RouteOptions = Partial<Route> & {
+  /** PC number; 255 (default): the connected station. */
+  readonly pc?: number
+  /** Self station number: 0 (default) but on a line with several computers. */
+  readonly selfStation?: number
 }
 
-const TIMER_UNIT = 250
-const LONGEST_TIMER = 0xffff * TIMER_UNIT
-const LONGEST = 24 * 60 * 60 * 1000
-
-const NAMES = {
+/** Names of the options, each once. */
+export const OPTION_NAMES = {
   host: true,
   port: true,
+  serial: true,
+  line: true,
+  messageFormat: true,
+  sumCheck: true,
+  serialFrame: true,
+  messageWait: true,
   transport: true,
   localAddress: true,
   localPort: true,
@@ -169,209 +174,8 @@ const NAMES = {
   clock: true,
   random: true,
 } as const satisfies Record<keyof MelsecClientOptions, true>
-const PAUSES = { first: true, longest: true } as const satisfies Record<
+/** Names of the options of `reconnect`. */
+export const PAUSE_NAMES = { first: true, longest: true } as const satisfies Record<
   keyof NonNullable<MelsecClientOptions['reconnect']>,
   true
 >
-
-/** @throws RequestError BAD_OPTION naming the option. */
-export function settle(options: MelsecClientOptions): Settings {
-  checkNames('', options, NAMES)
-  checkNames('reconnect.', options.reconnect ?? {}, PAUSES)
-  checkObject('route', options.route)
-  checkObject('format', options.format)
-  wholeNumber('localPort', options.localPort ?? 0, 0, 65_535)
-  checkFunction('openTransport', options.openTransport)
-  checkFunction('random', options.random)
-  if (options.localAddress !== undefined && typeof options.localAddress !== 'string') {
-    throw new RequestError('BAD_OPTION', 'localAddress is the address of a network interface, as text.', 'localAddress')
-  }
-  oneOf('asciiZr', options.asciiZr, [undefined, 'decimal', 'hexadecimal'])
-  oneOf('asciiWordOrder', options.asciiWordOrder, [undefined, 'low-first', 'high-first'])
-  const profile = profileOf(options)
-  const transport = oneOf('transport', options.transport ?? 'tcp', transportNames)
-  const frame = frameOf(profile, options.frame)
-  const code = codeOf(frame, options.code ?? profile.code)
-  if (options.openTransport === undefined) checkPeer(options)
-  checkFormat(options.format ?? {})
-  checkPasswordPort(options, transport, frame)
-  return {
-    transport,
-    profile,
-    frame,
-    code,
-    asciiXy: asciiXyOf(profile, oneOf('asciiXy', options.asciiXy, [undefined, 'octal', 'hexadecimal'])),
-    route: provable(options, transport, frame, reachable(profile, routeOf(frame, options.route))),
-    timer: timerOf(profile, options.monitoringTimer),
-    xyRadix: oneOf('xyRadix', options.xyRadix ?? profile.xyRadix, [8, 16]),
-    wRadix: wRadixOf(code, options.wRadix ?? profile.wRadix),
-    xyUnknown: !profile.xyRadixKnown,
-    timeout: wholeNumber('timeout', options.timeout ?? 3000, 1, LONGEST),
-    connectTimeout: wholeNumber('connectTimeout', options.connectTimeout ?? 5000, 1, LONGEST),
-    inFlight: inFlightOf(profile, transport, frame, options.inFlight),
-    queueLimit: wholeNumber('queueLimit', options.queueLimit ?? 256, 1, 1_000_000),
-    allowWrites: oneOf('allowWrites', options.allowWrites ?? false, [true, false]),
-    allowControl: oneOf('allowControl', options.allowControl ?? false, [true, false]),
-    probe: checkProbe(profile, oneOf('probe', options.probe ?? 'auto', probeKinds)),
-    gap: wholeNumber('gap', options.gap ?? 64, 0, 960),
-    format: options.format ?? {},
-    labelFormat: labelFormatOf(options),
-    ...pausesOf(options.reconnect ?? {}),
-    settleGap: wholeNumber('settleGap', options.settleGap ?? 50, 0, LONGEST),
-    clock: options.clock ?? realClock,
-    random: options.random ?? Math.random,
-  }
-}
-
-/** Of a PLC nobody knows the notation is the user's word for what it is, as if it stood in a profile. */
-function profileOf({ profile: given, profileOverrides, xyRadix }: MelsecClientOptions): Profile {
-  const profile = resolveProfile(given ?? 'generic')
-  const isSaid = !profile.xyRadixKnown && (xyRadix === 8 || xyRadix === 16)
-  return resolveProfile(profile, isSaid ? { ...profileOverrides, xyRadix } : (profileOverrides ?? undefined))
-}
-
-/** The PLC says the types of labels and how their words lie; only text has a code that it does not say. */
-function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }: MelsecClientOptions): LabelFormat {
-  return {
-    ...(encoding === undefined ? {} : { encoding }),
-    ...(trimSpaces === undefined ? {} : { trimSpaces }),
-    ...(asciiWordOrder === undefined ? {} : { asciiWordOrder }),
-  }
-}
-
-function checkObject(field: string, given: object | undefined): void {
-  if (given === undefined || (typeof given === 'object' && given !== null)) return
-  throw new RequestError('BAD_OPTION', `${field} is ${shown(given)}; it must be an object.`, field)
-}
-
-function checkFunction(field: string, given: unknown): void {
-  if (given === undefined || typeof given === 'function') return
-  throw new RequestError('BAD_OPTION', `${field} is ${shown(given)}; it must be a function.`, field)
-}
-
-function checkPeer({ host, port }: MelsecClientOptions): void {
-  if (typeof host !== 'string' || host.trim() === '') {
-    throw new RequestError('BAD_OPTION', 'host is missing: give the address of the PLC, e.g. 192.168.3.39.', 'host')
-  }
-  wholeNumber('port', port, 1, 65_535)
-}
-
-/** A PLC unlocks one peer, and over UDP with 3E the local port would change with every request. */
-function checkPasswordPort(
-  { password, localPort, openTransport }: MelsecClientOptions,
-  transport: TransportName,
-  frame: FrameName,
-): void {
-  if (password === undefined || transport !== 'udp' || frameFacts[frame].serial) return
-  if ((localPort ?? 0) > 0 || openTransport !== undefined) return
-  const message =
-    'A remote password over UDP needs localPort with the 3E frame: the PLC unlocks one peer, and without it every request ' +
-    'leaves from another port. Set it as in the open settings of the PLC, or use TCP or the 4E frame.'
-  throw new RequestError('BAD_OPTION', message, 'localPort')
-}
-
-function frameOf(profile: Profile, frame: FrameName | undefined): FrameName {
-  const chosen = frame ?? profile.frame
-  if (profile.frames.includes(chosen)) return chosen
-  throw new RequestError(
-    'BAD_OPTION',
-    `${profile.title} has no ${shown(chosen)} frame: use ${profile.frames.join(' or ')}.`,
-    'frame',
-  )
-}
-
-function codeOf(frame: FrameName, given: DataCode): DataCode {
-  const code = oneOf('code', given, ['binary', 'ascii'])
-  const { title, codes } = frameFacts[frame]
-  if (codes.includes(code)) return code
-  throw new RequestError(
-    'BAD_OPTION',
-    `The ${title} frame exists in ${codes.join(' and ')} code only: set code to ${codes[0]}, or choose another frame.`,
-    'code',
-  )
-}
-
-/** W902 is 902 or 386H on the line: in ASCII code another register would be written, and no manual at hand says which. */
-function wRadixOf(code: DataCode, given: 10 | 16): 10 | 16 {
-  const wRadix = oneOf('wRadix', given, [10, 16])
-  if (wRadix === 16 || code === 'binary') return wRadix
-  const message =
-    'W in decimal (wRadix 10) goes with binary code only: which digits such a device takes in ASCII code is not known.'
-  throw new RequestError('BAD_OPTION', message, 'wRadix')
-}
-
-function routeOf(frame: FrameName, given: Partial<Route> | undefined): Route {
-  const route = completeRoute(given)
-  checkRouteOf(frame, route)
-  return route
-}
-
-function timerOf(profile: Profile, given: number | undefined): number {
-  const ms = wholeNumber('monitoringTimer', given ?? profile.monitoringTimer.default, 0, LONGEST_TIMER)
-  if (ms % TIMER_UNIT !== 0) {
-    throw new RequestError(
-      'BAD_OPTION',
-      `monitoringTimer is ${ms} ms; it counts in steps of 250 ms.`,
-      'monitoringTimer',
-    )
-  }
-  if (ms !== 0 && profile.monitoringTimer.zeroOnly) {
-    throw new RequestError('BAD_OPTION', `${profile.title} takes monitoringTimer 0 only.`, 'monitoringTimer')
-  }
-  return ms / TIMER_UNIT
-}
-
-/** Ports that reach nothing else would refuse every request, or carry it out on the connected station. */
-function reachable({ title, reach }: Profile, route: Route): Route {
-  const { moduleIo, multidrop } = route
-  const own = isConnectedStation(route) && multidrop === ownStation.multidrop
-  const moduleTaken = !reach.ownModuleIoOnly || reach.ownModuleIo.includes(moduleIo)
-  if (reach.stations === 'networks' || (own && moduleTaken)) return route
-  const message = `${title} reaches the connected station only: leave route out (${reach.source}).`
-  throw new RequestError('UNSUPPORTED', message, 'route')
-}
-
-/** Pauses between attempts to connect: the first one, doubled up to the longest. */
-function pausesOf({
-  first,
-  longest,
-}: NonNullable<MelsecClientOptions['reconnect']>): Pick<Settings, 'first' | 'longest'> {
-  const most = wholeNumber('reconnect.longest', longest ?? Math.max(30_000, first ?? 0), 1, LONGEST)
-  const least = wholeNumber('reconnect.first', first ?? Math.min(500, most), 1, LONGEST)
-  if (least <= most) return { first: least, longest: most }
-  const message = `reconnect.first is ${least} ms and reconnect.longest ${most} ms: the first pause cannot be longer than the longest.`
-  throw new RequestError('BAD_OPTION', message, 'reconnect.first')
-}
-
-/**
- * On a fixed port a late answer is told from the next one by a self test, which the connected module returns. It proves
- * nothing about a request that is passed on: the pattern may be back before the answer of another station, of a station
- * behind a serial module or of another CPU. CPU No. 1 (03E0) and the control system (03D0) need not be the own CPU.
- */
-function provable(
-  { localPort = 0 }: MelsecClientOptions,
-  transport: TransportName,
-  frame: FrameName,
-  route: Route,
-): Route {
-  if (transport !== 'udp' || localPort === 0 || frameFacts[frame].serial) return route
-  if (isConnectedStation(route) && route.moduleIo === ownStation.moduleIo && route.multidrop === ownStation.multidrop) {
-    return route
-  }
-  const message =
-    `With the ${frame} frame over UDP and a fixed localPort only the connected station and its own CPU (module I/O 03FF) can be ` +
-    'reached: a late answer of another one could not be told from the next one. Leave localPort out, or use the 4E frame or TCP.'
-  throw new RequestError('BAD_OPTION', message, 'localPort')
-}
-
-function inFlightOf(profile: Profile, transport: TransportName, frame: FrameName, given: number | undefined): number {
-  const bound = inFlightBound(profile, transport, frame)
-  const inFlight = wholeNumber('inFlight', given ?? 1, 1, 65_535)
-  if (inFlight <= bound) return inFlight
-  const reason = bound === 1 ? 'more needs the 4E frame over UDP' : `the receive buffer of the PLC holds no more`
-  throw new RequestError(
-    'BAD_OPTION',
-    `inFlight is ${inFlight}; ${profile.title} over ${transport} with ${frame} takes ${bound}: ${reason}.`,
-    'inFlight',
-  )
-}

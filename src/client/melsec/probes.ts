@@ -1,7 +1,5 @@
 // The requests that prove a connection, by the option `probe`.
 import { RequestError } from '../../errors'
-import { aCompatibleCommands } from '../../melsec/a-compatible/commands'
-import { over1e } from '../../melsec/a-compatible/names'
 import type { ClientProtocol } from '../../melsec/client-protocol'
 import { commands } from '../../melsec/commands/commands'
 import { lackOf, type Profile } from '../../melsec/profiles/profile'
@@ -39,12 +37,5 @@ export function probesOf(protocol: ClientProtocol, kind: ProbeKind): readonly Pr
   } as const satisfies Readonly<Record<Asked, Probe['exchange']>>
   return ORDER[kind]
     .filter((name) => lackOf(protocol.profile, name) === undefined)
-    .map((name) => ({ name: nameOf(protocol.profile, name), exchange: exchanges[name] }))
-}
-
-/** As the manuals call it, with its number: `Read Type Name (0101)`. */
-function nameOf({ frame }: Profile, name: Asked): string {
-  const { title, code } = frame === '1E' ? aCompatibleCommands[over1e[name]] : commands[name]
-  const number = code.toString(16).toUpperCase()
-  return `${title} (${frame === '1E' ? `${number.padStart(2, '0')}H` : number.padStart(4, '0')})`
+    .map((name) => ({ name: protocol.nameOf(commands[name]), exchange: exchanges[name] }))
 }

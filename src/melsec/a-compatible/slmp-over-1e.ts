@@ -1,4 +1,5 @@
 // Requests of the SLMP set in 1E frames, for a client.
+import { hex } from '../../basics/hex'
 import type { Message } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { ClientProtocol, ProtocolOptions } from '../client-protocol'
@@ -33,6 +34,10 @@ export function protocolOver1e({ profile, route, code, asciiXy, timer }: Protoco
     code,
     anyHead: { command: 0, pc: 0, timer: 0 },
     said: (name, message) => bits.said(name, message) ?? saidAs(name, message),
+    nameOf(name) {
+      const { title, code: number } = aCompatibleCommands[over1e[name]]
+      return `${title} (${hex(number, 2)}H)`
+    },
     explainer: (shownAs) => otherSetExplainer({ frame: '1E', code, profile: narrowed, asciiXy, ...shownAs }),
   }
   return new SlmpOver(set)

@@ -45,6 +45,8 @@ export interface OtherSet<H extends Head> {
   /** Of an answer, whatever it says: heads are of one length. */
   readonly anyHead: H
   readonly said: (name: SaidName, message: Message) => Said
+  /** How the frame calls the command, with its number or name. */
+  readonly nameOf: (name: SaidName) => string
   readonly explainer: (shownAs: ShownAs) => FrameExplainer
 }
 
@@ -71,6 +73,10 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
 
   answerBytes(body: number): number {
     return answerBytes({ framing: this.framing, head: this.#set.anyHead }, body)
+  }
+
+  nameOf({ name, title }: Command): string {
+    return isSaid(name) ? this.#set.nameOf(name) : title
   }
 
   explainer(shownAs: ShownAs): FrameExplainer {

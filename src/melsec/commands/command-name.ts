@@ -31,6 +31,11 @@ export function commandNamed(text: string): Command & { readonly name: CommandNa
   )
 }
 
+/** @example nameOfCommand(commands.readTypeName)   // Read Type Name (0101) */
+export function nameOfCommand({ title, code }: Pick<Command, 'title' | 'code'>): string {
+  return `${title} (${hex(code, 4)})`
+}
+
 /** A command for people: what its message and its answer hold, and an example. */
 export interface CommandDescription {
   /** Name of the command, e.g. `readWords`. */

@@ -1,17 +1,21 @@
 // SLMP frames for a trace.
 import { type DataCode, hasSecret, readerOf } from '../../codec/codec'
 import { PlcError } from '../../errors'
-import type { FrameExplainer, ReceivedFrame, SentFrame } from '../../link/link'
+import type { AnswerFraming, FrameExplainer, ReceivedFrame, SentFrame } from '../../link/link'
 import type { Command } from '../commands/command'
 import { knownCommands } from '../commands/known'
 import type { SlmpFrameName } from '../frame/frames'
-import { slmpFraming } from '../frame/slmp-frame'
+import { isSerialFrame, type SerialFormat, type SerialFrameName } from '../frame/serial-frames'
 import type { Profile } from '../profiles/profile'
 import { explainFrame } from './frame'
 import type { ExplainFrameOptions } from './options'
 
 export interface SlmpExplainerOptions {
-  readonly frame: SlmpFrameName
+  readonly frame: SlmpFrameName | SerialFrameName
+  /** What finds the frames among the bytes. `wholeBody`: where a request does not say where its body ends. */
+  readonly framing: AnswerFraming & { wholeBody?(soFar: Buffer): number }
+  /** Of a serial frame. */
+  readonly messageFormat?: SerialFormat | undefined
   readonly code: DataCode
   readonly profile: Profile
   readonly xyRadix?: 8 | 16
@@ -23,9 +27,9 @@ export interface SlmpExplainerOptions {
 }
 
 export function slmpExplainer(options: SlmpExplainerOptions): FrameExplainer {
-  const { frame, code } = options
+  const { code, framing } = options
   const commands: Readonly<Record<string, Command>> = options.commands ?? knownCommands
-  const { request, response } = slmpFraming(frame, code)
+  const { request, response } = framing
   const list = Object.values(commands)
   const secret = list.filter((command) => hasSecret(command.request) || hasSecret(command.response))
   const secretCodes = new Set(secret.map((command) => command.code))
@@ -37,7 +41,7 @@ export function slmpExplainer(options: SlmpExplainerOptions): FrameExplainer {
     ),
     endsWithRequest: false,
     sent(bytes): SentFrame | undefined {
-      const scanned = attempt(() => request.scan(bytes, () => undefined))
+      const scanned = attempt(() => request.scan(bytes, (_head, soFar) => framing.wholeBody?.(soFar)))
       if (scanned === undefined) return undefined
       const { serial = 0, body } = scanned.frame
       const asked = attempt(() => readerOf(code, body).uint(2))
@@ -60,10 +64,12 @@ export function slmpExplainer(options: SlmpExplainerOptions): FrameExplainer {
 }
 
 function explainOptions(
-  { code, profile, xyRadix, wRadix, asciiXy, asciiZr }: SlmpExplainerOptions,
+  { frame, messageFormat, code, profile, xyRadix, wRadix, asciiXy, asciiZr }: SlmpExplainerOptions,
   commands: Readonly<Record<string, Command>>,
 ): ExplainFrameOptions {
   return {
+    ...(isSerialFrame(frame) ? { frame } : {}),
+    ...(messageFormat === undefined ? {} : { format: messageFormat }),
     code,
     profile,
     commands,

@@ -1,15 +1,26 @@
-// The frames of MELSEC PLCs over Ethernet: what is true of each, whatever family speaks it.
+// The frames of MELSEC PLCs: what is true of each, whatever family speaks it.
 import type { DataCode } from '../../codec/codec'
+import { isSerialFrame, serialFrameNames } from './serial-frames'
 
 /** Frames of the SLMP set. */
 export const slmpFrameNames = ['3E', '4E', 'ext'] as const
 /** Frames of the SLMP set. */
 export type SlmpFrameName = (typeof slmpFrameNames)[number]
 
-/** The frames that options take, by name; `ext` is the station extension frame. */
-export const frameNames = [...slmpFrameNames, '1E'] as const
-/** Name of a frame; `ext`: the station extension frame. */
+/** Frames of Ethernet ports. */
+export const ethernetFrameNames = [...slmpFrameNames, '1E'] as const
+/** Frames of Ethernet ports. */
+export type EthernetFrameName = (typeof ethernetFrameNames)[number]
+
+/** The frames that options take, by name; `ext` is the station extension frame, 1C, 3C and 4C are those of serial lines. */
+export const frameNames = [...ethernetFrameNames, ...serialFrameNames] as const
+/** Name of a frame; `ext`: the station extension frame; 1C, 3C and 4C: serial lines. */
 export type FrameName = (typeof frameNames)[number]
+
+/** Whether it is one of an Ethernet port. */
+export function isEthernetFrame(name: FrameName): name is EthernetFrameName {
+  return !isSerialFrame(name)
+}
 
 export interface FrameFacts {
   /** For people: the manual's word without "frame". */
@@ -19,12 +30,14 @@ export interface FrameFacts {
   /** A serial number in the subheader tells late answers from new ones. */
   readonly serial: boolean
   /** The frame to try on a PLC that says nothing to this one. */
-  readonly instead: '3E' | '4E'
+  readonly instead: FrameName
   /** Which PLCs know it or do not, for people, where not every PLC does. */
   readonly knownTo?: string
 }
 
 const BOTH: readonly DataCode[] = ['binary', 'ascii']
+
+const ASCII: readonly DataCode[] = ['ascii']
 
 /** By the name that options take. 1E is the A-compatible frame with its own command set. */
 export const frameFacts = {
@@ -44,4 +57,13 @@ export const frameFacts = {
     knownTo: 'only an RJ71GN11-T2 knows and relays it',
   },
   '1E': { title: '1E', codes: BOTH, serial: false, instead: '3E' },
+  '1C': { title: '1C', codes: ASCII, serial: false, instead: '3C' },
+  '3C': {
+    title: '3C',
+    codes: ASCII,
+    serial: false,
+    instead: '4C',
+    knownTo: 'an FX3 knows 1C only: choose its profile',
+  },
+  '4C': { title: '4C', codes: BOTH, serial: false, instead: '3C', knownTo: 'an FX3 knows 1C only: choose its profile' },
 } as const satisfies Readonly<Record<FrameName, FrameFacts>>

@@ -3,7 +3,7 @@
  */
 import { hex } from '../../basics/hex'
 import { RequestError } from '../../errors'
-import { type FrameName, frameFacts } from './frames'
+import { type EthernetFrameName, frameFacts } from './frames'
 
 /** Request destination network, station, module I/O, multidrop station and extension station numbers. */
 export type Route = {
@@ -176,7 +176,7 @@ function checkExtension({ station, extensionStation }: Route): void {
  * Whether the frame can say the route.
  * @throws RequestError OUT_OF_RANGE
  */
-export function checkRouteOf(frame: FrameName, route: Route): void {
+export function checkRouteOf(frame: EthernetFrameName, route: Route): void {
   const { station, extensionStation } = route
   if (frame !== 'ext') {
     if (extensionStation === undefined) return

@@ -80,6 +80,8 @@ export const serialFrameFacts = {
 
 /** Name of a serial frame. */
 export type SerialFrameName = keyof typeof serialFrameFacts
+/** Names of the serial frames. */
+export const serialFrameNames = ['1C', '3C', '4C'] as const satisfies readonly SerialFrameName[]
 
 /** Facts of a frame whatever frame it is. */
 export function factsOfSerial(frame: SerialFrameName): SerialFrameFacts {

@@ -38,6 +38,7 @@ export interface SerialFrameOptions {
 const NOTHING = Buffer.alloc(0)
 /** More than any frame has around its data. */
 const HEAD_AND_SUM = 64
+const SUM = 2
 
 /** Framing of a serial frame: also says what stands around the data of a command. */
 export interface SerialFraming extends Framing<SerialHead> {
@@ -45,6 +46,8 @@ export interface SerialFraming extends Framing<SerialHead> {
   readonly code: DataCode
   /** @throws RequestError BAD_MESSAGE for a body that the frame cannot carry, as `write` does */
   checkBody?(body: Uint8Array): void
+  /** Length of the body of a request that is there as a whole: format 1 does not say where it ends. */
+  wholeBody(soFar: Buffer): number
 }
 
 /**
@@ -60,6 +63,7 @@ export function serialFraming(options: SerialFrameOptions): SerialFraming {
     correlation: 'order',
     code: serialFormatCodes[format],
     mismatch: (asked: SerialHead, answered: Head) => mismatch(frame, asked, answered),
+    wholeBody: (soFar: Buffer) => soFar.length - (sumCheck ? SUM : 0),
   } as const
   if (format === 5) {
     const body = errorInformation ? plainBody : serialBody

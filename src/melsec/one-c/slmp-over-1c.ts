@@ -6,9 +6,12 @@ import { addressesOf, pointsOf } from '../a-compatible/frame-names'
 import type { SaidName } from '../a-compatible/names'
 import { type Said, SlmpOver, saidAlike } from '../a-compatible/slmp-over'
 import type { DeviceWindow } from '../a-compatible/windows'
+import type { ClientProtocol, ProtocolOptions } from '../client-protocol'
 import { otherSetExplainer } from '../explain/other-set-explainer'
+import { serialFraming } from '../frame/serial-framing'
 import { profileOver1c, windowsOver1c } from '../profiles/over-1c'
-import type { SerialProfile } from '../profiles/serial'
+import { asciiXyOf, type Profile } from '../profiles/profile'
+import { serialOptionsOf } from '../serial-options'
 import { type OneCCommandName, oneCCommands } from './commands'
 import { over1c } from './names'
 import { type OneCHead, type OneCOptions, oneCProtocol } from './protocol'
@@ -16,7 +19,7 @@ import { oneCRules } from './rules'
 
 /** How a client speaks 1C to its PLC. */
 export interface Over1cOptions<H extends OneCHead> extends Omit<OneCOptions<H>, 'windows'> {
-  readonly profile: SerialProfile
+  readonly profile: Profile
 }
 
 const names = { frame: '1C', instead: '3C or 4C' } as const
@@ -32,7 +35,7 @@ export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): S
     throw new RequestError('BAD_OPTION', `${profile.title} takes no 1C frame.`, 'frame')
   }
   const windows = windowsOver1c(profile)
-  const asciiXy = digitsOfXy(profile, options.asciiXy)
+  const asciiXy = asciiXyOf(profile, options.asciiXy)
   const narrowed = profileOver1c(profile)
   return new SlmpOver({
     ...names,
@@ -41,6 +44,10 @@ export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): S
     code: 'ascii',
     anyHead: head,
     said: (name, message) => saidIn1c(windows, name, message),
+    nameOf(name) {
+      const [first] = over1c[name]
+      return `${oneCCommands[first].title} (${first})`
+    },
     explainer: (shownAs) =>
       otherSetExplainer({
         frame: '1C',
@@ -53,11 +60,12 @@ export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): S
   })
 }
 
-function digitsOfXy({ asciiXy, title }: SerialProfile, given: OneCOptions<OneCHead>['asciiXy']): typeof given {
-  if (asciiXy === 'setting') return given
-  if (given === undefined || given === asciiXy) return asciiXy
-  const message = `${title} has no setting for the digits of X and Y: they are always ${asciiXy}. Leave asciiXy out.`
-  throw new RequestError('BAD_OPTION', message, 'asciiXy')
+/** As a client speaks it. @throws RequestError as `protocolOver1c` */
+export function clientProtocolOver1c(options: ProtocolOptions): ClientProtocol {
+  const { profile, asciiXy } = options
+  const { head, messageWait, ...serial } = serialOptionsOf(options)
+  const framing = serialFraming({ ...serial, frame: '1C' })
+  return protocolOver1c({ profile, asciiXy, head, messageWait, framing })
 }
 
 function saidIn1c(windows: readonly DeviceWindow[], name: SaidName, given: Message): Said {

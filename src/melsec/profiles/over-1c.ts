@@ -5,7 +5,6 @@ import { over1c } from '../one-c/names'
 import { oneCLimitSource, oneCLimits, oneCRules } from '../one-c/rules'
 import { contactsInWords, narrowed } from './over-other-set'
 import type { Profile, Refusals } from './profile'
-import type { SerialProfile } from './serial'
 
 /** Error codes of NAK (FX5 communication manual 47.2). */
 const PROTOCOL = 0x03
@@ -42,14 +41,14 @@ const refusals: Refusals = {
 }
 
 /** The windows of 1E and 1C are the same (44.4 and 39.2). */
-export function windowsOver1c({ set }: SerialProfile) {
-  return set.aCompatible?.windows ?? []
+export function windowsOver1c({ aCompatible }: Profile) {
+  return aCompatible?.windows ?? []
 }
 
 /** The profile of the same PLC over 1C. */
-export function profileOver1c(serial: SerialProfile): Profile {
+export function profileOver1c(serial: Profile): Profile {
   return {
-    ...narrowed(serial.set, {
+    ...narrowed(serial, {
       frame: '1C',
       instead: 'Use a 3C or 4C frame if the PLC takes it.',
       windows: windowsOver1c(serial),
@@ -69,8 +68,6 @@ export function profileOver1c(serial: SerialProfile): Profile {
       source,
     }),
     title: `${serial.title} in a 1C frame`,
-    // Which digits they are, the serial profile says.
-    asciiXy: 'setting',
     codes: ['ascii'],
     code: 'ascii',
     refusals,

@@ -10,6 +10,7 @@ import type { DeviceForm } from '../device/device-form'
 import type { Notation } from '../device/json'
 import type { LimitRule, LimitUnit } from '../device/limit-rule'
 import type { FrameName } from '../frame/frames'
+import type { SerialFacts } from './serial-facts'
 
 /** Every profile's id, in the order people look for them. */
 export const profileIds = [
@@ -21,6 +22,11 @@ export const profileIds = [
   'q-e71',
   'l',
   'fx3',
+  'fx5-serial',
+  'fx3-serial',
+  'iq-r-c24',
+  'q-c24',
+  'l-c24',
   'remote-head',
   'nz2gf-etb',
   'generic',
@@ -30,7 +36,7 @@ export const profileIds = [
 export type ProfileId = (typeof profileIds)[number]
 export type { FrameName } from '../frame/frames'
 /** What a port is reached by. */
-export const transportNames = ['tcp', 'udp'] as const
+export const transportNames = ['tcp', 'udp', 'serial'] as const
 /** What a port is reached by. */
 export type TransportName = (typeof transportNames)[number]
 
@@ -280,8 +286,8 @@ export interface ProfileInfo {
   readonly xyRadixKnown: boolean
   /** How W is numbered: hexadecimal on every PLC; SLMP inverters are said to number it in decimal. */
   readonly wRadix: 10 | 16
-  /** Digits of X and Y in ASCII code: as the port is set ("ASCII (X,Y OCT)", "(X,Y HEX)"), or always hexadecimal. */
-  readonly asciiXy: 'setting' | 'hexadecimal'
+  /** Digits of X and Y in ASCII code: as the port is set ("ASCII (X,Y OCT)", "(X,Y HEX)"), or always the same. */
+  readonly asciiXy: 'setting' | 'hexadecimal' | 'octal'
   /** Frames it takes, the usual one first. */
   readonly frames: readonly FrameName[]
   /** Default frame. */
@@ -312,6 +318,8 @@ export interface ProfileInfo {
   readonly remote: RemoteFacts
   /** Files and drives. */
   readonly files: FileInfo
+  /** The port is a serial line. */
+  readonly serial?: SerialFacts
   /** What people should know about ports, settings and oddities. */
   readonly notes: readonly string[]
 }
@@ -375,7 +383,7 @@ export interface ProfileOverrides {
 }
 
 /**
- * Digits of X and Y in ASCII code: what is given, where the port has the setting; else always hexadecimal. A setting that
+ * Digits of X and Y in ASCII code: what is given, where the port has the setting; else always the family's. A setting that
  * the PLC does not have would address other inputs and outputs without any error.
  *
  * @throws RequestError BAD_OPTION when the family has no such setting.
@@ -383,12 +391,12 @@ export interface ProfileOverrides {
 export function asciiXyOf<T extends 'octal' | 'hexadecimal' | undefined>(
   { title, asciiXy }: Profile,
   given: T,
-): T | 'hexadecimal' {
+): T | 'hexadecimal' | 'octal' {
   if (asciiXy === 'setting') return given
-  if (given === undefined) return 'hexadecimal'
+  if (given === undefined) return asciiXy
   throw new RequestError(
     'BAD_OPTION',
-    `${title} has no setting for the digits of X and Y in ASCII code: they are always hexadecimal. Leave asciiXy out.`,
+    `${title} has no setting for the digits of X and Y in ASCII code: they are always ${asciiXy}. Leave asciiXy out.`,
     'asciiXy',
   )
 }

@@ -1,7 +1,10 @@
 // Every profile, and the one a user means.
 import { RequestError } from '../../errors'
+import { iqRC24, lC24, qC24 } from './c24'
 import { fx3 } from './fx3'
+import { fx3Serial } from './fx3-serial'
 import { fx5Enet } from './fx5-enet'
+import { fx5Serial } from './fx5-serial'
 import { generic } from './generic'
 import { iqF } from './iq-f'
 import { iqR } from './iq-r'
@@ -23,6 +26,11 @@ export const profiles: Readonly<Record<ProfileId, Profile>> = {
   'q-e71': qE71,
   l,
   fx3,
+  'fx5-serial': fx5Serial,
+  'fx3-serial': fx3Serial,
+  'iq-r-c24': iqRC24,
+  'q-c24': qC24,
+  'l-c24': lC24,
   'remote-head': remoteHead,
   'nz2gf-etb': nz2gfEtb,
   generic,

@@ -1,8 +1,10 @@
 // The command set of an FX5 over a serial line in 3C and 4C frames: that of its Ethernet port with figures of its own, as far
-// as the serial part of the manual prints them (chapter 43).
+// as the serial part of the manual prints them (chapter 43). In 1C frames there is less of it (over-1c.ts).
 import type { LimitRule } from '../device/limit-rule'
+import { fx5Channels } from '../serial-channels'
 import { iqF, iqFLimits } from './iq-f'
 import type { DeviceExclusion, Lack, Profile } from './profile'
+import { serialPort } from './serial'
 
 const manual = 'FX5 communication manual 43.1 and 43.2'
 
@@ -63,13 +65,12 @@ function noPassword(command: 'unlock' | 'lock'): Lack {
   }
 }
 
-export const fx5Over3c: Profile = {
+export const fx5Serial: Profile = {
   ...iqF,
-  title: 'MELSEC iQ-F by a serial line',
+  ...serialPort({ frames: ['3C', '4C', '1C'], source: `${manual}, 42.2` }),
+  id: 'fx5-serial',
+  title: 'MELSEC iQ-F serial',
   series: 'FX5S, FX5UJ, FX5U and FX5UC CPU modules by RS-485 or RS-232C',
-  codes: ['ascii', 'binary'],
-  code: 'ascii',
-  transports: [],
   lacks: [
     ...iqF.lacks.map((lack) => ({
       ...lack,
@@ -101,15 +102,23 @@ export const fx5Over3c: Profile = {
     source:
       'NAK codes 47.2; which one it is for an extension, a station or a module is not printed; remote control background',
   },
-  inFlight: { tcp: 1, udpBuffer: 0, ports: [], source: '41.1: half duplex' },
-  connections: { most: 1, source: 'a serial line has one host' },
-  monitoringTimer: { default: 0, zeroOnly: true, source: '42.2: serial frames have no monitoring timer' },
   subcommands: { clearError: { value: 0x0000, source: 'command list 43.1 and 43.4' } },
-  notes: [],
+  notes: [
+    'The serial port needs MC protocol as protocol format in GX Works3; speed, parity, sum check, station and message format are set there, too.',
+    '1C frames: FX5U and FX5UC from firmware 1.110. Message formats with X and Y in hexadecimal digits: FX5U and FX5UC from 1.040.',
+    'In 3C and 4C the wait before an answer is a parameter of the port; in 1C each request says it, and the parameter counts for nothing.',
+    'One-pair wiring with an FX-485PC-IF needs a message wait of 70 to 150 ms; two pairs and RS-232C need none.',
+  ],
+  serial: {
+    reach: 'fx5',
+    lastStation: 15,
+    channels: fx5Channels,
+    source: 'FX5 communication manual 42.5: all but the station number is fixed',
+  },
   sources: {
     ...iqF.sources,
-    asciiXy: '43.2: message format "(X,Y OCT)" or "(X,Y HEX)"',
-    frames: '42: 3C and 4C carry the data of 3E',
+    asciiXy: '43.2 and 44.4: message formats "Format 1 (X,Y OCT)" and the like',
+    frames: '18.4: 4C in formats 1, 4 and 5, 3C and 1C in formats 1 and 4; 42: 3C and 4C carry the data of 3E',
     forms: '43.1: the command list has 0000/0001 and 0080 to 0083 only',
     extensions: 'appendix 11: module access; link direct devices are marked as not available',
     absentDevices: 'device table 43.2; V, ZR, RD and long timers measured by others over Ethernet (C05C)',
