@@ -35,6 +35,7 @@ export interface Fx5ChannelDevices extends ChannelDevices {
   readonly settings: SpecialDevice
   /** The station number in `station` counts, not the parameter. */
   readonly stationLatched: SpecialDevice
+  /** The station number that counts then. */
   readonly station: SpecialDevice
   /** Message format: 0 and 3 formats 1 and 4 with X and Y octal, 4 format 5, 5 and 6 formats 1 and 4 with them hexadecimal. */
   readonly format: SpecialDevice
@@ -68,9 +69,11 @@ const channelDevices: Readonly<Record<ChannelNumber, Fx5ChannelDevices>> = {
 
 /** Names that programs of an FX3 know, of one of its two channels. */
 export interface Fx3Aliases {
+  /** By the channel numbers of an FX3. */
   readonly channels: Readonly<Record<1 | 2, ChannelDevices>>
   /** Where they work. */
   readonly condition: string
+  /** Where it is written. */
   readonly source: string
 }
 
@@ -86,10 +89,13 @@ const fx3Aliases: Fx3Aliases = {
 
 /** Which channels a CPU can have. */
 export interface CpuChannels {
+  /** Name of the CPU module. */
   readonly cpu: string
+  /** Those it can have. */
   readonly channels: readonly ChannelNumber[]
   /** So many at the same time. */
   readonly most: number
+  /** Where it is written. */
   readonly source: string
 }
 
@@ -105,8 +111,11 @@ const cpuChannels: readonly CpuChannels[] = [
 
 /** Serial channels and what is known of them. */
 export interface SerialChannels {
+  /** By CPU module. */
   readonly cpus: readonly CpuChannels[]
+  /** What each channel tells of itself. */
   readonly devices: Readonly<Record<ChannelNumber, Fx5ChannelDevices>>
+  /** What programs of an FX3 know instead. */
   readonly fx3: Fx3Aliases
   /** Codes in the error register that no NAK carries: the parameters set a channel up twice; parity, overrun or framing. */
   readonly errorCodes: { readonly setUpTwice: number; readonly line: number; readonly source: string }

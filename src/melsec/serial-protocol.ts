@@ -37,6 +37,7 @@ export function serialProtocol(options: SerialOptions): ClientProtocol {
     check: (command, message) => protocol.check(command, message),
     bodyBytes: (command, message, form) => protocol.bodyBytes(command, message, form),
     answerBytes: (body) => protocol.answerBytes(body),
+    lineCost: protocol.lineCost,
     nameOf: nameOfCommand,
     explainer: (shownAs) => slmpExplainer({ ...options, code, framing, messageFormat: serial.format, ...shownAs }),
   }

@@ -5,19 +5,19 @@ import { type SerialFormat, serialRoute } from '../../src/melsec/frame/serial-fr
 import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { protocolOver1c } from '../../src/melsec/one-c/slmp-over-1c'
 import type { Profile } from '../../src/melsec/profiles/profile'
-import { serialProfiles } from '../../src/melsec/profiles/serial'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
 export function over1c(format: 1 | 4 = 1, sumCheck = true): PlanProtocol {
   return protocolOver1c({
-    profile: serialProfiles['fx5-serial'],
+    profile: profiles['fx5-serial'],
     framing: serialFraming({ frame: '1C', format, sumCheck }),
     head: serialRoute('1C'),
     asciiXy: 'octal',
   })
 }
 
-const fx5 = serialProfiles['fx5-serial'].set
+const fx5 = profiles['fx5-serial']
 
 export function overSerial(frame: '3C' | '4C', format: SerialFormat, sumCheck = true, profile = fx5): PlanProtocol {
   const framing = serialFraming({ frame, format, sumCheck })
