@@ -223,7 +223,8 @@ export class ProtocolError extends BaseError {
   ) {
     super(ProtocolError.kind, message)
     this.offset = detail.offset
-    this.bytes = detail.bytes
+    // A copy: the memory of what was received holds something else soon.
+    this.bytes = detail.bytes && Uint8Array.prototype.slice.call(detail.bytes)
     this.field = detail.field
   }
 }

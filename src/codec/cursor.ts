@@ -153,7 +153,7 @@ export function placeText(offset: number, field?: string): string {
 
 /** Throws the `ProtocolError` for bytes that are wrong at `offset`. */
 export function failAt(code: ProtocolErrorCode, offset: number, bytes: Buffer, message: string): never {
-  const shown = Buffer.from(bytes.subarray(0, SHOWN_BYTES))
+  const shown = bytes.subarray(0, SHOWN_BYTES)
   throw new ProtocolError(code, `${placeText(offset)}${message}.`, { offset, bytes: shown })
 }
 

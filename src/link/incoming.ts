@@ -4,6 +4,8 @@ const EMPTY = Buffer.alloc(0)
 
 export class Incoming {
   #bytes: Buffer = EMPTY
+  /** The bytes are those of a chunk, which are the transport's. */
+  #isLent = false
   /** What may still follow the last answer. */
   #follows: Buffer = EMPTY
   /** What a line that repeats everything brings first: the last request. */
@@ -18,7 +20,15 @@ export class Incoming {
   }
 
   add(chunk: Buffer): void {
-    this.#bytes = this.#bytes.length === 0 ? chunk : Buffer.concat([this.#bytes, chunk])
+    this.#isLent = this.#bytes.length === 0
+    this.#bytes = this.#isLent ? chunk : Buffer.concat([this.#bytes, chunk])
+  }
+
+  /** The chunk goes back to the transport: what nobody has read yet is copied. */
+  keep(): void {
+    if (!this.#isLent || this.#bytes.length === 0) return
+    this.#bytes = Buffer.from(this.#bytes)
+    this.#isLent = false
   }
 
   /** Takes bytes away from the front. */

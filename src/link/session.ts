@@ -292,6 +292,7 @@ export class Session<J extends Job = Job> {
     } catch (error) {
       this.#fail(error, now)
     }
+    this.#received.keep()
   }
 
   #skipNoise(): boolean {

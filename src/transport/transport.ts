@@ -10,7 +10,10 @@ export interface TransportHandlers {
   opened(): void
   /** After `renew()`: bytes may be sent again. Only who renews needs it. */
   renewed?(): void
-  /** A chunk of the stream, or exactly one datagram. The buffer belongs to the receiver. */
+  /**
+   * A chunk of the stream, or exactly one datagram. The bytes are lent until this returns, because a transport may read the
+   * next ones into the same memory: who keeps any copies them.
+   */
   received(bytes: Buffer): void
   /**
    * At most once, and nothing is called after it. `undefined`: the peer closed the connection in an orderly way (FIN).

@@ -47,7 +47,7 @@ export function record(
     },
     received(bytes) {
       calls.push('received')
-      chunks.push(bytes)
+      chunks.push(Buffer.from(bytes))
       received += bytes.length
       for (const entry of waiting) if (received >= entry.count) entry.resolve(Buffer.concat(chunks))
       act.onReceived?.()

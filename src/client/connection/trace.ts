@@ -83,7 +83,8 @@ export class Tracer {
 
   #receivedPieces(chunk: Buffer): readonly Piece[] {
     const pieces: Piece[] = []
-    let rest = this.#received.length === 0 ? chunk : Buffer.concat([this.#received, chunk])
+    // A copy: it is explained later, when the memory of the chunk holds something else.
+    let rest = Buffer.concat([this.#received, chunk])
     this.#received = EMPTY
     try {
       while (rest.length > 0) {
@@ -105,7 +106,7 @@ export class Tracer {
     // Where an answer ends with its request, that says what has come of it so far.
     const piece = this.#explainer.endsWithRequest ? this.#answer(bytes, 0) : { bytes }
     if (this.#kind === 'datagram') return piece
-    if (bytes.length <= LONGEST_FRAME) this.#received = Buffer.from(bytes)
+    if (bytes.length <= LONGEST_FRAME) this.#received = bytes
     return { ...piece, unfinished: true }
   }
 
