@@ -44,6 +44,7 @@ const ROOMS: Readonly<Record<string, readonly string[]>> = {
     'client/plan',
   ],
   'client/file': ['errors', 'basics', 'melsec', 'client/connection'],
+  'client/jw': ['errors', 'basics', 'jw', 'value', 'client/item'],
   'client/melsec': ['errors', 'basics', 'codec', 'link', 'melsec', 'value', 'transport', 'client'],
   simulator: ['errors', 'basics', 'codec', 'link', 'melsec', 'jw', 'value', 'transport'],
   index: ['errors', 'codec', 'link', 'melsec', 'value', 'transport', 'client'],
@@ -229,6 +230,12 @@ const FOR_TESTS: readonly string[] = [
   'checkCodeOf',
   'fromClassicAddress',
   'toClassicAddress',
+  'jwAddressOf',
+  'advanceJw',
+  'timerValue',
+  'valuesOfBytes',
+  'bytesOfValues',
+  'parseJwItem',
 ]
 
 /** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */
