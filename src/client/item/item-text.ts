@@ -73,7 +73,7 @@ type FactsOfType<T extends string, Before extends string = ''> = T extends `${in
   : ItemFacts<TypeNamed<`${Before}${T}`>, IsWritten<`${Before}${T}`> extends true ? 'one' : 'unknown'>
 
 /** Whether all of a text is known, but for numbers: `D${number}`. A number has no colon, range or brackets. */
-type IsWritten<T extends string> =
+export type IsWritten<T extends string> =
   Record<never, never> extends Record<T, 1> ? (T extends `${infer Head}${number}` ? IsWritten<Head> : false) : true
 
 /** An address without a type: `D100`, `D100[10]`, `D100,10`, `D0..D9`. */
@@ -158,7 +158,7 @@ type TypeOfRest<Unit extends keyof DefaultTypes, T extends string> = T extends '
     : never
 
 /** Spaces around say nothing: those that input methods and spreadsheets leave, too. */
-type Trim<T extends string> = T extends `${Space}${infer Rest}`
+export type Trim<T extends string> = T extends `${Space}${infer Rest}`
   ? Trim<Rest>
   : T extends `${infer Rest}${Space}`
     ? Trim<Rest>

@@ -19,7 +19,12 @@ type ValueRead<F extends ItemFacts> = [F['type']] extends [never]
     : Counted<F['count'], PlcValue>
   : Counted<F['count'], TypeToValue[F['type']]>
 
-type Counted<N extends ItemFacts['count'], V> = N extends 'one' | 'element' ? V : N extends 'many' ? V[] : V | V[]
+/** A value, or an array where the item has a count. */
+export type Counted<N extends ItemFacts['count'], V> = N extends 'one' | 'element'
+  ? V
+  : N extends 'many'
+    ? V[]
+    : V | V[]
 
 /**
  * What may be written to an item, as far as its text says it: to `M10` true or false, to `D100:REAL[4]` numbers, also
@@ -33,7 +38,8 @@ type ValueWritten<F extends ItemFacts> = [F['type']] extends [never]
     : CountedInput<F['count'], PlcValue>
   : CountedInput<F['count'], TypeToWritten[F['type']]>
 
-type CountedInput<N extends ItemFacts['count'], V> = N extends 'one'
+/** A value, or all of an array where the item has a count. */
+export type CountedInput<N extends ItemFacts['count'], V> = N extends 'one'
   ? V
   : N extends 'many'
     ? readonly V[] | ArrayOf<V>

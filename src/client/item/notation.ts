@@ -51,7 +51,11 @@ const list: Notation = (text, isItem) => {
 const bit: Notation = (text, isItem) => {
   const [, word, number] = /^(\S+?)\s*[.,: ]\s*BIT\s*(\d+)$/.exec(text) ?? []
   if (number === undefined) return undefined
-  return sentence('the bit of a word is one hexadecimal digit', [`${word}.${hex(Number(number))}`], isItem)
+  return sentence(
+    'a bit is one digit behind a dot, of a word a hexadecimal one',
+    [`${word}.${hex(Number(number))}`],
+    isItem,
+  )
 }
 
 /** `D100.3,5`: five bits, or two. */
