@@ -1,20 +1,24 @@
 /** Plans for serial lines against every way there is. */
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { parseItem } from '../../src/client/item/item'
+import { type ParsedItem, parseItem } from '../../src/client/item/item'
+import type { PlainValue } from '../../src/client/item/item-value'
 import type { PlanProtocol } from '../../src/client/plan/limit'
 import { planRead } from '../../src/client/plan/read'
+import { planWrite } from '../../src/client/plan/write'
 import { TimeoutError } from '../../src/errors'
 import type { Exchange } from '../../src/link/link'
-import { characterCost, leastReading } from './plan-search'
+import { expectedValue } from './plan-arbitrary'
+import { PlanPlc } from './plan-plc'
+import { characterCost, leastReading, leastWriting } from './plan-search'
 import { over1c, overSerial, smallFx5 } from './serial-protocols'
 
 const GAP = 64
 
 const parsed = (texts: readonly string[]) => texts.map((text) => parseItem(text, { xyRadix: 8 }))
 
-/** The requests of a plan that is run once. */
-async function requestsOf(texts: readonly string[], protocol: PlanProtocol, gap = GAP): Promise<Exchange<unknown>[]> {
+/** The requests of a plan that is run once, and nobody answers. */
+async function readsOf(texts: readonly string[], protocol: PlanProtocol, gap: number): Promise<Exchange<unknown>[]> {
   const plan = planRead(parsed(texts), protocol, { gap })
   expect(texts.filter((_, i) => plan.errorOf(i) !== undefined)).toEqual([])
   const seen: Exchange<unknown>[] = []
@@ -26,21 +30,45 @@ async function requestsOf(texts: readonly string[], protocol: PlanProtocol, gap 
   return seen
 }
 
-/** Characters of a plan, without the DLEs that format 5 adds. */
-async function priceOf(texts: readonly string[], protocol: PlanProtocol, gap = GAP): Promise<number> {
+/** The requests of a plan that is run once, and each is taken. */
+async function writesOf(items: readonly ParsedItem[], protocol: PlanProtocol): Promise<Exchange<unknown>[]> {
+  const plan = planWrite(
+    items.map((item) => ({ item, value: valueFor(item, 0) })),
+    protocol,
+  )
+  const seen: Exchange<unknown>[] = []
+  const results = await plan.run(async (exchange) => {
+    seen.push(exchange)
+    return exchange.decode({ head: {}, serial: undefined, endCode: 0, body: Buffer.alloc(0) })
+  })
+  expect(results.filter(({ ok }) => !ok)).toEqual([])
+  return seen
+}
+
+/** Characters of requests and answers, without the DLEs that format 5 adds. */
+function charactersOf(exchanges: readonly Exchange<unknown>[], protocol: PlanProtocol): number {
   const costOf = characterCost(protocol)
-  return (await requestsOf(texts, protocol, gap)).reduce((sum, exchange) => sum + costOf(exchange), 0)
+  return exchanges.reduce((sum, exchange) => sum + costOf(exchange), 0)
+}
+
+async function readPrice(texts: readonly string[], protocol: PlanProtocol, gap = GAP): Promise<number> {
+  return charactersOf(await readsOf(texts, protocol, gap), protocol)
+}
+
+function valueFor({ type, count }: ParsedItem, seed: number): PlainValue {
+  const one = (i: number) => (type.name === 'BOOL' ? (seed + i) % 2 === 1 : seed + i)
+  if (count === undefined) return one(0)
+  return Array.from({ length: count }, (_, i) => one(i)) as PlainValue
 }
 
 const number = fc.oneof(fc.nat(30), fc.nat(120), fc.nat(700))
 const count = fc.constantFrom('', '', '', '[2]', '[5]', '[17]', '[33]')
+const joined = (...parts: fc.Arbitrary<string | number>[]) => fc.tuple(...parts).map((all) => all.join(''))
 
 const itemText: fc.Arbitrary<string> = fc.oneof(
-  fc
-    .tuple(fc.constantFrom('D', 'D', 'R'), number, fc.constantFrom('', ':DINT', ':LREAL'), count)
-    .map((all) => all.join('')),
-  fc.tuple(fc.constantFrom('M'), number, fc.constantFrom('', '', '[3]', '[20]')).map((all) => all.join('')),
-  fc.tuple(fc.constantFrom('K4M', 'K8M'), number).map((all) => all.join('')),
+  joined(fc.constantFrom('D', 'D', 'R'), number, fc.constantFrom('', ':DINT', ':LREAL'), count),
+  joined(fc.constant('M'), number, fc.constantFrom('', '', '[3]', '[20]')),
+  joined(fc.constantFrom('K4M', 'K8M'), number),
 )
 const itemTexts = fc.array(itemText, { minLength: 1, maxLength: 7 })
 
@@ -60,7 +88,7 @@ describe('reading costs the fewest characters that any distribution over request
         const least = leastReading(parsed(texts), protocol, gap)
         // An item that no request holds is cut, which is not tried.
         fc.pre(Number.isFinite(least))
-        expect(await priceOf(texts, protocol, gap)).toBe(least)
+        expect(await readPrice(texts, protocol, gap)).toBe(least)
       }),
       { numRuns: 150 },
     )
@@ -75,12 +103,12 @@ describe('where Read Random and Read Block are too small for what would go into 
   }
 
   test.each(Object.entries(small))('less than a request more is sent: %s', async (_name, protocol) => {
-    const request = await priceOf(['D0'], protocol)
+    const request = await readPrice(['D0'], protocol)
     await fc.assert(
       fc.asyncProperty(itemTexts, async (texts) => {
         const least = leastReading(parsed(texts), protocol, GAP)
         fc.pre(Number.isFinite(least))
-        const price = await priceOf(texts, protocol)
+        const price = await readPrice(texts, protocol)
         expect(price).toBeGreaterThanOrEqual(least)
         expect(price).toBeLessThan(least + request)
       }),
@@ -88,3 +116,63 @@ describe('where Read Random and Read Block are too small for what would go into 
     )
   })
 })
+
+/** Items near one another that share nothing, in any order: the least of them says where the next may begin. */
+const apart = fc
+  .array(
+    fc.tuple(fc.constantFrom('D', 'D', 'D:DINT', 'D[3]', 'D[12]', 'M', 'M[16]', 'M[5]', 'K4M'), fc.nat(3), fc.nat(99)),
+    {
+      minLength: 1,
+      maxLength: 8,
+    },
+  )
+  .map((kinds) => {
+    const next = { D: 0, M: 0 }
+    const texts = kinds.map(([kind, gap, order]) => {
+      const [, digits = '', device = 'D', tail = ''] = /^(K\d)?(\w)(.*)$/.exec(kind) ?? []
+      const isBit = device === 'M'
+      const from = next[isBit ? 'M' : 'D'] + (isBit ? 16 * Math.floor(gap / 2) : gap)
+      const at = digits === '' ? from : Math.ceil(from / 16) * 16
+      const item = parseItem(`${digits}${device}${at}${tail}`, { xyRadix: 8 })
+      next[isBit ? 'M' : 'D'] = at + (digits === '' ? 1 : 16) * (item.count ?? 1) * (item.type.name === 'DINT' ? 2 : 1)
+      return { item, order }
+    })
+    return texts.sort((a, b) => a.order - b.order).map(({ item }) => item)
+  })
+
+describe('writing costs the fewest characters that any requests in this order do', () => {
+  test.each(Object.entries(frames))('%s', async (_name, protocol) => {
+    await fc.assert(
+      fc.asyncProperty(apart, async (items) => {
+        const price = charactersOf(await writesOf(items, protocol), protocol)
+        expect(price).toBe(leastWriting(items, protocol))
+      }),
+      { numRuns: 200 },
+    )
+  })
+
+  test('and writes what was given and nothing beside it', async () => {
+    const protocol = overSerial('4C', 5)
+    await fc.assert(
+      fc.asyncProperty(apart, fc.nat(999), async (items, seed) => {
+        const [plc, before] = [new PlanPlc(protocol), new PlanPlc(protocol)]
+        const entries = items.map((item, i) => ({ item, value: valueFor(item, seed + i) }))
+        await planWrite(entries, protocol).run(plc.send)
+        for (const { item, value } of entries) expect(expectedValue(plc, item)).toEqual(value)
+        const written = new Set(items.flatMap(devicesOf))
+        for (let n = 0; n < 150; n++) {
+          if (!written.has(`D${n}`))
+            expect(plc.word({ device: 'D', number: n })).toBe(before.word({ device: 'D', number: n }))
+          if (!written.has(`M${n}`))
+            expect(plc.bit({ device: 'M', number: n })).toBe(before.bit({ device: 'M', number: n }))
+        }
+      }),
+      { numRuns: 200 },
+    )
+  })
+})
+
+function devicesOf({ address: { device, number: first }, type, digits, count: many = 1 }: ParsedItem): string[] {
+  const size = (digits === undefined ? 1 : 4 * digits) * (type.name === 'DINT' ? 2 : 1) * many
+  return Array.from({ length: size }, (_, i) => `${device}${first + i}`)
+}

@@ -12,7 +12,7 @@ import { ownStation } from '../../src/melsec/frame/route'
 import { type SlmpHead, slmpFraming } from '../../src/melsec/frame/slmp-frame'
 import type { ProfileId, ProfileOverrides } from '../../src/melsec/profiles/profile'
 import { resolveProfile } from '../../src/melsec/profiles/profiles'
-import { MelsecProtocol } from '../../src/melsec/protocol'
+import { MelsecProtocol, type SlmpCommandSet } from '../../src/melsec/protocol'
 
 export function protocolOf(
   id: ProfileId,
@@ -30,7 +30,7 @@ export function protocolOf(
 }
 
 /** Items as the client parses them for a profile. */
-export function items(protocol: MelsecProtocol<SlmpHead>, texts: readonly string[]): (ParsedItem | RefusedItem)[] {
+export function items(protocol: SlmpCommandSet, texts: readonly string[]): (ParsedItem | RefusedItem)[] {
   return texts.map((text) => tryParseItem(text, { xyRadix: protocol.profile.xyRadix }))
 }
 
@@ -47,6 +47,8 @@ interface Point {
 interface Block {
   readonly head: DeviceAddress
   readonly points: number
+  /** Of a block that is written. */
+  readonly values?: readonly number[]
 }
 
 export class PlanPlc {
@@ -56,7 +58,7 @@ export class PlanPlc {
   readonly #words = new Map<string, number>()
   readonly #bits = new Map<string, boolean>()
 
-  constructor(readonly protocol: MelsecProtocol<SlmpHead>) {}
+  constructor(readonly protocol: SlmpCommandSet) {}
 
   get names(): CommandName[] {
     return this.seen.map(({ name }) => name)
@@ -194,6 +196,15 @@ export class PlanPlc {
             this.#writer(device, [Number(value) & 0xffff, Number(value) >>> 16], touch),
           ),
         ]
+        return () => {
+          for (const write of writes) write()
+          return {}
+        }
+      }
+      case 'writeBlock': {
+        const writes = [...blocks('wordBlocks'), ...blocks('bitBlocks')].map((block) =>
+          this.#writer(block.head, block.values ?? [], touch),
+        )
         return () => {
           for (const write of writes) write()
           return {}

@@ -27,8 +27,9 @@ const DLE = 0x10
 function plainLength(frame: Buffer): number {
   if (frame[0] !== DLE) return frame.length
   let added = 0
-  // Behind DLE STX, up to DLE ETX and the sum.
-  for (let at = 2; at < frame.length - 4; at++) {
+  // Behind DLE STX, up to DLE ETX and, where there is one, the sum.
+  const end = frame.length - (frame.at(-2) === DLE ? 2 : 4)
+  for (let at = 2; at < end; at++) {
     if (frame[at] !== DLE) continue
     added++
     at++
@@ -51,6 +52,15 @@ export function leastPartition(count: number, costOf: (set: number) => number): 
     }
   }
   return best[all] ?? 0
+}
+
+/** The least sum over all ways to cut `count` things in a row; `costOf(from, to)`: things `from` to `to - 1` together. */
+export function leastCut(count: number, costOf: (from: number, to: number) => number): number {
+  const best = [0]
+  for (let to = 1; to <= count; to++) {
+    best.push(Math.min(...best.map((before, from) => before + costOf(from, to))))
+  }
+  return best[count] ?? 0
 }
 
 /** The least that reading the items costs; a Read or a block has at most `gap` words in a row that nobody wants. */
@@ -180,4 +190,68 @@ function blocksOf(rows: readonly Wanted[]) {
   const block = (row: Wanted) => readOf(headOf(row), row)
   const isBit = ({ device }: Wanted) => deviceInfo(device).unit === 'bit'
   return { wordBlocks: rows.filter((row) => !isBit(row)).map(block), bitBlocks: rows.filter(isBit).map(block) }
+}
+
+/** The least that writing the items costs in their order, nothing beside them written. */
+export function leastWriting(
+  items: readonly ParsedItem[],
+  protocol: PlanProtocol,
+  costOf: CostOf = characterCost(protocol),
+): number {
+  return leastCut(items.length, (from, to) => leastWrite(items.slice(from, to).map(writtenOf), protocol, costOf))
+}
+
+/** Devices `from` to `to - 1`, in words or bit by bit. */
+interface Written extends Wanted {
+  readonly inWords: boolean
+}
+
+function writtenOf(item: ParsedItem): Written {
+  const wanted = wantedOf(item)
+  const isBit = deviceInfo(wanted.device).unit === 'bit'
+  const isWhole = item.type.name !== 'BOOL' && wanted.from % 16 === 0 && (wanted.to - wanted.from) % 16 === 0
+  return { ...(isBit && isWhole ? inWords(wanted) : wanted), inWords: !isBit || isWhole }
+}
+
+/** One request for all of them. */
+function leastWrite(items: readonly Written[], protocol: PlanProtocol, costOf: CostOf): number {
+  const [first] = items
+  if (first === undefined || items.some((item) => item.inWords !== first.inWords)) return Number.POSITIVE_INFINITY
+  const runs = runsOf(items)
+  const exchanges = first.inWords ? wordWrites(items, runs, protocol) : bitWrites(items, runs, protocol)
+  return Math.min(...exchanges.map((make) => cost(make, costOf)))
+}
+
+function wordWrites(items: readonly Written[], runs: readonly Wanted[], protocol: PlanProtocol) {
+  const values = ({ from, to }: Wanted) => new Array<number>(to - from).fill(0)
+  const block = (row: Wanted) => ({ head: headOf(row), values: values(row) })
+  const isBit = ({ device }: Wanted) => deviceInfo(device).unit === 'bit'
+  // The two words of a number stay in one entry, so neighbours are not paired.
+  const scattered = items.map((item) => randomOf([item]))
+  const valued = (list: 'words' | 'doubleWords') =>
+    scattered.flatMap((one) => one[list].map(({ device }) => ({ device, value: 0 })))
+  return [
+    ...(runs.length === 1 ? runs : []).map((row) => () => protocol.exchange(commands.writeWords, block(row))),
+    () => protocol.exchange(commands.writeRandomWords, { words: valued('words'), doubleWords: valued('doubleWords') }),
+    () =>
+      protocol.exchange(commands.writeBlock, {
+        wordBlocks: runs.filter((row) => !isBit(row)).map(block),
+        bitBlocks: runs.filter(isBit).map(block),
+      }),
+  ]
+}
+
+function bitWrites(items: readonly Written[], runs: readonly Wanted[], protocol: PlanProtocol) {
+  const [only, ...others] = runs
+  const bits = items.flatMap(({ device, from, to }) =>
+    Array.from({ length: to - from }, (_, i) => ({ device: { device, number: from + i }, value: false })),
+  )
+  const random = () => protocol.exchange(commands.writeRandomBits, { bits })
+  if (only === undefined || others.length > 0) return [random]
+  const { device, from, to } = only
+  const values = new Array<boolean>(to - from).fill(false)
+  const row = () => protocol.exchange(commands.writeBits, { head: { device, number: from }, values })
+  if (from % 16 !== 0 || to % 16 !== 0) return [random, row]
+  const words = { head: { device, number: from }, values: new Array<number>((to - from) / 16).fill(0) }
+  return [random, row, () => protocol.exchange(commands.writeWords, words)]
 }

@@ -1,7 +1,7 @@
 // Serial frames as planners see them.
 import type { PlanProtocol } from '../../src/client/plan/limit'
 import type { LimitRule } from '../../src/melsec/device/limit-rule'
-import { type SerialFormat, serialRoute } from '../../src/melsec/frame/serial-frames'
+import { type SerialFormat, type SerialHead, serialRoute } from '../../src/melsec/frame/serial-frames'
 import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { protocolOver1c } from '../../src/melsec/one-c/slmp-over-1c'
 import type { Profile } from '../../src/melsec/profiles/profile'
@@ -19,7 +19,12 @@ export function over1c(format: 1 | 4 = 1, sumCheck = true): PlanProtocol {
 
 const fx5 = profiles['fx5-serial']
 
-export function overSerial(frame: '3C' | '4C', format: SerialFormat, sumCheck = true, profile = fx5): PlanProtocol {
+export function overSerial(
+  frame: '3C' | '4C',
+  format: SerialFormat,
+  sumCheck = true,
+  profile = fx5,
+): MelsecProtocol<SerialHead> {
   const framing = serialFraming({ frame, format, sumCheck })
   return new MelsecProtocol({ framing, head: serialRoute(frame), profile, code: framing.code, asciiXy: 'octal' })
 }

@@ -100,8 +100,14 @@ function tried(protocol: PlanProtocol, address: DeviceAddress, use: DeviceUse): 
 }
 
 const USES = {
-  read: { word: 'readWords', bit: 'readBits', randomWords: 'readRandom', randomBits: undefined },
-  write: { word: 'writeWords', bit: 'writeBits', randomWords: 'writeRandomWords', randomBits: 'writeRandomBits' },
+  read: { word: 'readWords', bit: 'readBits', randomWords: 'readRandom', randomBits: undefined, block: 'readBlock' },
+  write: {
+    word: 'writeWords',
+    bit: 'writeBits',
+    randomWords: 'writeRandomWords',
+    randomBits: 'writeRandomBits',
+    block: 'writeBlock',
+  },
 } as const
 
 function waysOf(protocol: PlanProtocol, direction: Direction, kind: CellKind, address: DeviceAddress): Ways {
@@ -119,8 +125,9 @@ function waysOf(protocol: PlanProtocol, direction: Direction, kind: CellKind, ad
   const form = formIn(direct) ?? formIn(random)
   if (form === undefined) throw refusalOf(isModified(address) ? [random, direct] : [direct, random])
   const freely = randomCommand === undefined || chosenFreely(protocol, randomCommand, info, direct)
-  const hasBlock = direction === 'read' && formIn(direct) !== undefined
-  const block = hasBlock ? blockOf(protocol, kind, info, form, attempt) : undefined
+  // Blocks are written only to save characters: fewer requests than Write Random they do not make.
+  const hasBlock = formIn(direct) !== undefined && (direction === 'read' || protocol.lineCost !== undefined)
+  const block = hasBlock ? blockOf(protocol, uses.block, kind, info, form, attempt) : undefined
   return {
     form,
     ...(formIn(direct) === undefined ? {} : { direct: directCommand }),
@@ -151,14 +158,15 @@ function isDoubtful(profile: Profile, command: CommandName, { name }: DeviceInfo
 
 function blockOf(
   protocol: PlanProtocol,
+  command: 'readBlock' | 'writeBlock',
   kind: CellKind,
   info: DeviceInfo,
   form: DeviceForm,
   attempt: Try,
 ): Ways['block'] {
-  if (kind !== 'word' || isDoubtful(protocol.profile, 'readBlock', info)) return undefined
+  if (kind !== 'word' || isDoubtful(protocol.profile, command, info)) return undefined
   const list = info.unit === 'bit' ? 'bitBlocks' : 'wordBlocks'
-  return attempt({ command: 'readBlock', list, points: 1 }) === form ? list : undefined
+  return attempt({ command, list, points: 1 }) === form ? list : undefined
 }
 
 /** A load of so many points, with what a limit counts of them beside. */

@@ -15,18 +15,31 @@ export interface ListPrice {
 /** Sizes follow from area and count, so they are measured once for each area of a protocol. */
 const known = { random: new WeakMap<Area, ListPrice>(), block: new WeakMap<Area, ListPrice>() } as const
 
+/** Bytes of the values of so many cells in a row. */
+export function valueBytes(code: DataCode, { kind, bitsPerCell }: Area, cells: number): number {
+  if (kind === 'bit') return sizeOf(code, field.bits(cells))
+  return cells * (bitsPerCell / 16) * wordBytes[code]
+}
+
+function sizeOf(code: DataCode, values: Field): number {
+  return measure({ values }, { ascii: code === 'ascii', form: 0 })
+}
+
+const wordBytes: Readonly<Record<DataCode, number>> = {
+  binary: sizeOf('binary', field.words(1)),
+  ascii: sizeOf('ascii', field.words(1)),
+}
+
 export class Prices {
   readonly #bytes: BodyBytes
   readonly #request: number
   readonly #code: DataCode
-  readonly #word: number
 
   /** @param request bytes of a request and its answer around their bodies */
   constructor(bytes: BodyBytes, request: number, code: DataCode) {
     this.#bytes = bytes
     this.#request = request
     this.#code = code
-    this.#word = this.#sizeOf(field.words(1))
   }
 
   /** A Read of this cell, without its value: 1C has a longer command for large numbers. */
@@ -36,12 +49,8 @@ export class Prices {
   }
 
   /** Values of so many cells in a row. */
-  values({ kind, bitsPerCell }: Area, cells: number): number {
-    return kind === 'bit' ? this.#sizeOf(field.bits(cells)) : cells * (bitsPerCell / 16) * this.#word
-  }
-
-  #sizeOf(values: Field): number {
-    return measure({ values }, { ascii: this.#code === 'ascii', form: 0 })
+  values(area: Area, cells: number): number {
+    return valueBytes(this.#code, area, cells)
   }
 
   list(kind: 'random' | 'block', area: Area): ListPrice {

@@ -144,6 +144,10 @@ export function pointsText(points: number, unit = 'point'): string {
   return `${points} ${unit}${points === 1 ? '' : 's'}`
 }
 
+export function blocksText(wordBlocks: number, bitBlocks: number, points: number): string {
+  return `${pointsText(wordBlocks, 'word block')}, ${pointsText(bitBlocks, 'bit block')}, ${pointsText(points)}`
+}
+
 function readWords(run: Stretch): Question<typeof commands.readWords> {
   return { ...inRow('readWords', run), command: commands.readWords, wordsOf: ({ values }) => values }
 }
@@ -169,7 +173,8 @@ function messageInRow({ area, from, to }: Stretch): { readonly head: DeviceAddre
   return { head: addressAt(area, from), points: area.kind === 'bit' ? to - from : (to - from) * wordsPerCell(area) }
 }
 
-function wordsOfBits(bits: readonly boolean[]): number[] {
+/** Packed, the first bit in bit 0. */
+export function wordsOfBits(bits: readonly boolean[]): number[] {
   const words = new Array<number>(Math.ceil(bits.length / 16)).fill(0)
   bits.forEach((bit, i) => {
     if (bit) words[i >> 4] = (words[i >> 4] ?? 0) | (1 << (i & 15))
@@ -255,8 +260,7 @@ function readBlock(runs: readonly Stretch[]): Question<typeof commands.readBlock
     message: { wordBlocks: wordRuns.map(block), bitBlocks: bitRuns.map(block) },
     form: formOf(runs),
     points,
-    text: () =>
-      `${pointsText(wordRuns.length, 'word block')}, ${pointsText(bitRuns.length, 'bit block')}, ${pointsText(points)}`,
+    text: () => blocksText(wordRuns.length, bitRuns.length, points),
     offsets,
     wordsOf: ({ wordBlocks, bitBlocks }) => [...wordBlocks, ...bitBlocks].flat(),
   }

@@ -7,9 +7,14 @@ import type { WriteUnit } from './write-unit'
 
 /** Units of one request. */
 export interface Batch {
-  /** `direct`: cells in a row by one Write; `random`: Write Random; `masked`: words read, changed and written back. */
-  readonly kind: 'direct' | 'random' | 'masked'
+  /**
+   * `direct`: cells in a row by one Write; `random`: Write Random; `block`: Write Block; `masked`: words read, changed and
+   * written back.
+   */
+  readonly kind: 'direct' | 'random' | 'block' | 'masked'
   readonly units: readonly WriteUnit[]
+  /** Of `direct`: bits in a row that are written as words of this area. */
+  readonly words?: Area
 }
 
 /** A batch that may still grow. */
@@ -19,6 +24,11 @@ interface OpenBatch {
   row: { readonly from: number; readonly to: number } | undefined
   /** Points of Write Random so far, when it can take them. */
   load: Load | undefined
+}
+
+/** Whether two units may stand in one request at all. */
+export function mayShare(a: WriteUnit, b: WriteUnit): boolean {
+  return !a.isPart && !b.isPart && a.content.kind === b.content.kind && groupOf(a.area) === groupOf(b.area)
 }
 
 /** Each unit joins the request before it, as long as that can carry it; else the next request begins. */
@@ -48,8 +58,7 @@ function opened(protocol: PlanProtocol, unit: WriteUnit): OpenBatch {
 
 function joined(protocol: PlanProtocol, batch: OpenBatch, unit: WriteUnit): boolean {
   const [first] = batch.units
-  if (first === undefined || first.isPart || unit.isPart) return false
-  if (first.content.kind !== unit.content.kind || groupOf(first.area) !== groupOf(unit.area)) return false
+  if (first === undefined || !mayShare(first, unit)) return false
   const row = first.area === unit.area ? rowWith(protocol, batch, unit) : undefined
   const load = loadWith(protocol, batch, unit)
   if (row === undefined && load === undefined) return false
@@ -65,7 +74,7 @@ function rowWith(protocol: PlanProtocol, { row }: OpenBatch, { area, from, to, c
   return grown !== undefined && rowFits(protocol, area, grown.to - grown.from) ? grown : undefined
 }
 
-function rowFits(protocol: PlanProtocol, area: Area, cells: number): boolean {
+export function rowFits(protocol: PlanProtocol, area: Area, cells: number): boolean {
   const { direct, form } = area.ways
   return direct !== undefined && fits(boundsOf(protocol, direct, form, limitedUnit(area)), directLoad(area, cells))
 }
@@ -77,7 +86,7 @@ function loadWith(protocol: PlanProtocol, { load, units }: OpenBatch, unit: Writ
   return randomFits(protocol, unit, sum) ? sum : undefined
 }
 
-function randomFits(protocol: PlanProtocol, { area, content }: WriteUnit, load: Load): boolean {
+export function randomFits(protocol: PlanProtocol, { area, content }: WriteUnit, load: Load): boolean {
   const { random, form } = area.ways
   if (random === undefined) return false
   // The words of a masked unit are read first, so they must fit into a Read Random too, where there is one.
@@ -88,7 +97,7 @@ function randomFits(protocol: PlanProtocol, { area, content }: WriteUnit, load: 
   return fits(boundsOf(protocol, randomCommandOf(area, 'write'), form), load)
 }
 
-function loadOf({ area, from, to, content }: WriteUnit): Load {
+export function loadOf({ area, from, to, content }: WriteUnit): Load {
   return content.kind === 'masked' ? withTally(area, { words: to - from }, to - from) : randomLoad(area, to - from)
 }
 

@@ -1,4 +1,4 @@
-// From a batch to what is sent: one Write or Write Random, or a Read and a Write for bits of words.
+// From a batch to what is sent: one Write, Write Random or Write Block, or a Read and a Write for bits of words.
 
 import { ClosedError, ConnectionError, PlcError, ProtocolError, TimeoutError } from '../../errors'
 import type { Exchange } from '../../link/link'
@@ -8,7 +8,15 @@ import { type Area, addressAt } from './area'
 import type { Stretch } from './chunk'
 import type { Areas } from './layout'
 import type { PlanProtocol } from './limit'
-import { type Prepared, pointsText, prepareRead, rangeText, type SendExchange } from './request'
+import {
+  blocksText,
+  type Prepared,
+  pointsText,
+  prepareRead,
+  rangeText,
+  type SendExchange,
+  wordsOfBits,
+} from './request'
 import type { Batch } from './write-batch'
 import type { WriteUnit } from './write-unit'
 
@@ -31,7 +39,7 @@ export interface WriteContext {
 /** @throws RequestError when the request cannot be sent. */
 export function prepareWrite(context: WriteContext, batch: Batch): WriteStep {
   if (batch.kind === 'masked') return readModifyWrite(context, batch.units)
-  const prepared = batch.kind === 'direct' ? direct(context, batch.units) : random(context, batch.units)
+  const prepared = preparedOf(context, batch)
   const { exchange } = prepared
   return {
     units: batch.units,
@@ -42,15 +50,42 @@ export function prepareWrite(context: WriteContext, batch: Batch): WriteStep {
   }
 }
 
-function direct({ protocol, options }: WriteContext, units: readonly WriteUnit[]): Prepared {
+function preparedOf(context: WriteContext, { kind, units, words }: Batch): Prepared {
+  if (kind === 'block') return blocks(context, units)
+  if (kind === 'random') return random(context, units)
+  return direct(context, words === undefined ? rowOf(units) : inWords(rowOf(units), words))
+}
+
+/** Cells in a row and what they are set to. */
+interface WrittenRow {
+  readonly area: Area
+  readonly from: number
+  readonly to: number
+  readonly bits: readonly boolean[]
+  readonly words: readonly number[]
+}
+
+function rowOf(units: readonly WriteUnit[]): WrittenRow {
   const ordered = [...units].sort((a, b) => a.from - b.from)
-  const area = areaOf(units)
   const from = ordered[0]?.from ?? 0
+  return {
+    area: areaOf(units),
+    from,
+    to: ordered.at(-1)?.to ?? from,
+    bits: ordered.flatMap(({ content }) => (content.kind === 'bits' ? content.bits : [])),
+    words: ordered.flatMap(({ content }) => (content.kind === 'words' ? content.words : [])),
+  }
+}
+
+/** Bits from a multiple of sixteen on as the words they are. */
+function inWords({ from, to, bits }: WrittenRow, area: Area): WrittenRow {
+  return { area, from: from / 16, to: to / 16, bits: [], words: wordsOfBits(bits) }
+}
+
+function direct({ protocol, options }: WriteContext, { area, from, to, bits, words }: WrittenRow): Prepared {
   const head = addressAt(area, from)
-  const bits = ordered.flatMap(({ content }) => (content.kind === 'bits' ? content.bits : []))
-  const words = ordered.flatMap(({ content }) => (content.kind === 'words' ? content.words : []))
   const points = area.kind === 'bit' ? bits.length : words.length
-  const text = `${rangeText(area, from, ordered.at(-1)?.to ?? from, options)}, ${pointsText(points)}`
+  const text = `${rangeText(area, from, to, options)}, ${pointsText(points)}`
   const { form } = area.ways
   return area.kind === 'bit'
     ? {
@@ -67,6 +102,42 @@ function direct({ protocol, options }: WriteContext, units: readonly WriteUnit[]
         text,
         exchange: protocol.exchange(commands.writeWords, { head, values: words }),
       }
+}
+
+function blocks({ protocol }: WriteContext, units: readonly WriteUnit[]): Prepared {
+  const rows = rowsOf(units)
+  const lists = { wordBlocks: listed(rows, 'wordBlocks'), bitBlocks: listed(rows, 'bitBlocks') }
+  const { wordBlocks, bitBlocks } = lists
+  const points = rows.reduce((sum, { words }) => sum + words.length, 0)
+  return {
+    command: 'writeBlock',
+    form: areaOf(units).ways.form,
+    points,
+    text: blocksText(wordBlocks.length, bitBlocks.length, points),
+    exchange: protocol.exchange(commands.writeBlock, lists),
+  }
+}
+
+/** Units that are neighbours as one row. */
+function rowsOf(units: readonly WriteUnit[]): WrittenRow[] {
+  const byArea = new Map<Area, WriteUnit[]>()
+  for (const unit of units) byArea.set(unit.area, [...(byArea.get(unit.area) ?? []), unit])
+  return [...byArea.values()].flatMap((own) => {
+    const rows: WriteUnit[][] = []
+    let end = Number.NaN
+    for (const unit of own.sort((a, b) => a.from - b.from)) {
+      if (unit.from === end) rows.at(-1)?.push(unit)
+      else rows.push([unit])
+      end = unit.to
+    }
+    return rows.map(rowOf)
+  })
+}
+
+function listed(rows: readonly WrittenRow[], list: 'wordBlocks' | 'bitBlocks') {
+  return rows
+    .filter(({ area }) => area.ways.block === list)
+    .map(({ area, from, words }) => ({ head: addressAt(area, from), values: words }))
 }
 
 function random({ protocol }: WriteContext, units: readonly WriteUnit[]): Prepared {

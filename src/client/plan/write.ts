@@ -14,7 +14,8 @@ import { stopsOrder } from '../item/write-outcome'
 import { Areas } from './layout'
 import type { PlanProtocol } from './limit'
 import { describePrepared, type PlanDescription, planText, type SendExchange } from './request'
-import { alone, batchesOf } from './write-batch'
+import { alone, type Batch, batchesOf } from './write-batch'
+import { cheapestBatches } from './write-cheapest'
 import { prepareWrite, type WriteContext, type WriteStep } from './write-request'
 import { unitsOf, type WriteUnit, writtenTwice } from './write-unit'
 
@@ -77,7 +78,15 @@ export class DeviceWrite {
     this.#refuseDoubles()
     if (options.allOrNothing === true) this.#refuseAll()
     this.#units = units.filter(({ entry }) => !this.#errors.has(entry))
-    this.#steps = batchesOf(protocol, this.#units).map((batch) => prepareWrite(this.#context, batch))
+    this.#steps = this.#batches().map((batch) => prepareWrite(this.#context, batch))
+  }
+
+  #batches(): Batch[] {
+    const { protocol } = this.#areas
+    const { lineCost } = protocol
+    return lineCost === undefined
+      ? batchesOf(protocol, this.#units)
+      : cheapestBatches(this.#areas, this.#units, lineCost.write)
   }
 
   /** Whether words are read, changed and written back: nobody else may write meanwhile. */
