@@ -120,6 +120,40 @@ describe('items of a Sharp JW', () => {
     fc.record({ operand: fc.constantFrom('TMR0012', 'CNT0000'), type: fc.constantFrom('UINT', 'WORD', 'BOOL') }),
   )
 
+  test('of any text are items or RequestErrors, and an item is written as what it was read from', () => {
+    const pieces = fc.constantFrom(
+      '09012',
+      '004033',
+      'F1:0',
+      'F2:',
+      'b0012',
+      'TMR0001',
+      '..',
+      ':',
+      'INT',
+      'BYTE',
+      'STRING(3)',
+      '[2]',
+      ',3',
+      '.1',
+      ' ',
+      '9',
+      'コ0001',
+    )
+    const texts = fc.oneof(
+      fc.array(pieces, { maxLength: 6 }).map((parts) => parts.join('')),
+      fc.string({ maxLength: 20 }),
+    )
+    fc.assert(
+      fc.property(texts, (text) => {
+        if (messageOf(text) !== 'no error') return
+        const item = parseJwItem(text)
+        expect({ ...parseJwItem(formatJwItem(item)), text }).toEqual(item)
+      }),
+      { numRuns: 1000 },
+    )
+  })
+
   test('formatted are read as the same', () => {
     fc.assert(
       fc.property(items, fc.option(fc.integer({ min: 1, max: 20 })), ({ operand, type }, count) => {

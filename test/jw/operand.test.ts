@@ -137,7 +137,7 @@ const REFUSED: readonly (readonly [unknown, ...string[]])[] = [
   ['', 'BAD_ADDRESS', '"": no operand', '004033', '09012'],
   [undefined, 'BAD_ADDRESS', 'An address is a text such as 09012'],
   [9012, 'BAD_ADDRESS', 'An address is a text such as 09012, not 9012'],
-  ['04083', 'BAD_ADDRESS', '"04083": a relay has an octal number (digits 0 to 7), and "8" is none'],
+  ['04083', 'BAD_ADDRESS', '"04083": a relay has an octal number (digits 0 to 7: behind 17 comes 20), and "8" is none'],
   ['90000', 'BAD_ADDRESS', 'a relay has an octal number', '"9" is none'],
   ['09082', 'BAD_ADDRESS', 'behind the 9 of a register stand three octal digits (0 to 7), not 082'],
   ['b0018', 'BAD_ADDRESS', 'has an octal number', '"8" is none'],

@@ -110,7 +110,8 @@ function numberOf(digits: string, name: JwKindName, fail: Fail): number {
   const { title, last, prefix } = jwKind(name)
   if (digits === '') return fail(`the number is missing behind ${name === 'F' ? 'the file' : prefix}.`)
   if (/^\d+$/.test(digits)) checkDigits(digits, name, fail)
-  if (!OCTAL.test(digits)) return fail(`a ${title} has an octal number (digits 0 to 7)${wrongDigit(digits)}.`)
+  if (!OCTAL.test(digits))
+    return fail(`a ${title} has an octal number (digits 0 to 7: behind 17 comes 20)${wrongDigit(digits)}.`)
   const number = Number.parseInt(digits, 8)
   if (number > last) fail(`the last ${title} that can be written is ${octal(last)}.`, 'OUT_OF_RANGE')
   return number
