@@ -27,7 +27,7 @@ const TEXTS: readonly (readonly [string, string, string, (number | undefined)?, 
   ['KO0403', 'KO0403', 'BYTE'],
   ['コ0403:WORD', 'KO0403', 'WORD', undefined, 'KO0403:WORD'],
   ['b0012', 'b0012', 'BYTE'],
-  ['b0012:BCD16', 'b0012', 'BCD16'],
+  ['b0012:WORD', 'b0012', 'WORD'],
   ['#0201', '#0201', 'BYTE'],
   ['TMR0012', 'TMR0012', 'UINT'],
   ['CNT0012:WORD', 'CNT0012', 'WORD'],
@@ -113,7 +113,7 @@ describe('items of a Sharp JW', () => {
   )
   const items = fc.oneof(
     fc.record({
-      operand: fc.constantFrom('09012', 'KO0400', 'b0012', '#0201', 'F1:00200000', 'F2:000000'),
+      operand: fc.constantFrom('09012', 'KO0400', '#0201', 'F1:00200000', 'F2:000000'),
       type: types,
     }),
     fc.record({ operand: fc.constantFrom('004033', '09012.7', 'F1:00000000.0'), type: fc.constant('BOOL') }),
@@ -177,6 +177,9 @@ const REFUSED: readonly (readonly [Item, ...string[]])[] = [
   ['09012:BOOL', 'BAD_TYPE', '09012 is a byte: name the bit, 09012.0 to 09012.7'],
   ['TMR0012:REAL', 'BAD_TYPE', 'TMR0012 has a current value, which is UINT', 'no REAL'],
   ['TMR0012:BCD16', 'BAD_TYPE', 'has no BCD16'],
+  ['b0012:BCD16', 'BAD_TYPE', 'bit 15 of that is no part of the number', 'take TMR0005 or CNT0005'],
+  ['b0013:WORD', 'BAD_TYPE', 'the high byte of a current value: its word begins at b0012'],
+  ['b0013:INT', 'BAD_TYPE', 'take TMR0005 or CNT0005, BYTE and WORD'],
   ['09012:FOO', 'BAD_TYPE', "'FOO' is not a type", 'BYTE USINT SINT BCD8'],
   ['09012:BCD', 'BAD_TYPE', 'BCD16 has 4 digits'],
   ['F1:REAL', 'BAD_ADDRESS', 'there is no operand "F1"'],

@@ -11,6 +11,7 @@
  * | `09012[16]` `004000[16]`           | an array of so many values; bits go on in the next byte                       |
  * | `09000..09017:INT`                 | the same by its last byte: 8 values of two bytes each                         |
  * | `TMR0012` `TMR0012:WORD`           | current value of a timer, as its attribute says it is coded; its word as it is |
+ * | `b0012` `b0012:WORD`               | bytes of current values as they stand, with bit 15                            |
  * | `TMR0012:BOOL`                     | sets (true) or resets (false) it; written only                                |
  */
 import { RequestError } from '../../errors'
@@ -142,12 +143,28 @@ function typeProblem(operand: JwOperand, type: ByteType): string | undefined {
     case 'bit':
       return isBit ? undefined : `${text} is one bit, a BOOL, not ${formatByteType(type)}: ${bytesInstead(operand)}.`
     case 'byte':
-      return isBit ? `${text} is a byte: name the bit, ${text}.0 to ${text}.7.` : undefined
+      if (isBit) return `${text} is a byte: name the bit, ${text}.0 to ${text}.7.`
+      return operand.kind === 'b' ? currentValueProblem(operand, type) : undefined
     default:
       return TIMER_TYPES.includes(type.name)
         ? undefined
         : `${text} has a current value, which is UINT (or WORD: as it is, with bit 15); BOOL sets and resets it. It has no ${formatByteType(type)}.`
   }
+}
+
+/** What the bytes of current values are as they stand. */
+const CURRENT_VALUE_TYPES: readonly string[] = ['BYTE', 'WORD']
+
+/** Bit 15 of a current value is none of its digits: as a number it would be a wrong one. */
+function currentValueProblem(operand: JwOperand, type: ByteType): string | undefined {
+  if (type.name === 'WORD' && operand.number % 2 === 1) {
+    const { number } = operand
+    return `${formatJwOperand(operand)} is the high byte of a current value: its word begins at ${formatJwOperand({ ...operand, number: number - 1 })}.`
+  }
+  if (CURRENT_VALUE_TYPES.includes(type.name)) return undefined
+  const number = Math.floor(operand.number / 2)
+  const [timer, counter] = (['TMR', 'CNT'] as const).map((kind) => formatJwOperand({ kind, number }))
+  return `${formatJwOperand(operand)} is of a current value, and bit 15 of that is no part of the number, so it is no ${formatByteType(type)}: take ${timer} or ${counter}, BYTE and WORD as they stand, or the byte of the file, e.g. F0:002012, where no timer uses it.`
 }
 
 function bytesInstead(operand: JwOperand): string {
