@@ -255,6 +255,9 @@ test('a plan shows what goes out; monitors become reads', () =>
       'readBits',
     ])
     expect(requests[0]).toMatchObject({ requestBytes: 12, responseBytes: 4 })
+    const entries = ['D0.1', 'D0.2', 'D1.0'].map((item) => ({ item, value: true }))
+    const bits = client.planWrite(entries, { readModifyWrite: true })
+    expect(bits.describe().requests.map(({ command }) => command)).toEqual(['readWords', 'writeWords'])
     const monitor = client.monitor(['D0'])
     expect(monitor.mode).toBe('read')
     expect(await monitor.read()).toMatchObject([{ ok: true, value: 0 }])

@@ -4,12 +4,13 @@ import fc from 'fast-check'
 import { type ParsedItem, parseItem } from '../../src/client/item/item'
 import type { PlainValue } from '../../src/client/item/item-value'
 import type { PlanProtocol } from '../../src/client/plan/limit'
-import { planRead } from '../../src/client/plan/read'
+import { type DeviceRead, planRead } from '../../src/client/plan/read'
 import { planWrite } from '../../src/client/plan/write'
 import { TimeoutError } from '../../src/errors'
 import type { Exchange } from '../../src/link/link'
-import { expectedValue } from './plan-arbitrary'
-import { PlanPlc } from './plan-plc'
+import { profiles } from '../../src/melsec/profiles/profiles'
+import { itemText as anyItem, expectedValue, modifiedText } from './plan-arbitrary'
+import { goodValue, PlanPlc } from './plan-plc'
 import { characterCost, leastReading, leastWriting } from './plan-search'
 import { over1c, overSerial, smallFx5 } from './serial-protocols'
 
@@ -113,6 +114,33 @@ describe('where Read Random and Read Block are too small for what would go into 
         expect(price).toBeLessThan(least + request)
       }),
       { numRuns: 150 },
+    )
+  })
+})
+
+describe('values', () => {
+  test.each([
+    ['binary', overSerial('4C', 5, true, profiles['iq-r-c24'])],
+    ['ascii', overSerial('3C', 1, true, profiles['iq-r-c24'])],
+  ])('are those of the devices, whatever the plan: %s', async (_name, protocol) => {
+    const texts = fc.array(fc.oneof(anyItem, anyItem, modifiedText), { minLength: 1, maxLength: 40 })
+    await fc.assert(
+      fc.asyncProperty(texts, fc.nat(100), async (given, gap) => {
+        const plc = new PlanPlc(protocol)
+        const items = given.map((text) => parseItem(text, { xyRadix: 16 }))
+        const plan = planRead(items, protocol, { gap })
+        const results = await plan.run(plc.send, () => 5)
+        expect(results.map(goodValue)).toEqual(items.map((item) => expectedValue(plc, item)))
+        // Never more characters than the items alone.
+        const characters = (one: DeviceRead) =>
+          one
+            .describe()
+            .requests.reduce((sum, { requestBytes = 0, responseBytes = 0 }) => sum + requestBytes + responseBytes, 0)
+        const alone = items.map((item) => characters(planRead([item], protocol, { gap })))
+        // A count or a length may be 10H, which format 5 sends twice.
+        expect(characters(plan)).toBeLessThanOrEqual(alone.reduce((sum, one) => sum + one) + 8)
+      }),
+      { numRuns: 100 },
     )
   })
 })

@@ -111,6 +111,18 @@ describe('a plan', () => {
     )
   })
 
+  test('sets bits of the same word and of the next together, as there is no random read', async () => {
+    const protocol = over1c()
+    const plc = new Plc1c(protocol.own)
+    plc.setWord(at('D', 0), 0x8000)
+    plc.setWord(at('D', 1), 0xffff)
+    const bits = ['D0.1', 'D0.2', 'D1.3', 'D0.F', 'D5.1'].map((text) => ({ item: item(text), value: text !== 'D1.3' }))
+    const results = await planWrite(bits, protocol, RMW).run(plc.send)
+    expect(results.every(({ ok }) => ok)).toBe(true)
+    expect(plc.seen.map(({ name }) => name)).toEqual(['WR', 'WW', 'WR', 'WW'])
+    expect([0, 1, 5].map((number) => plc.word(at('D', number)))).toEqual([0x8006, 0xfff7, 0x0002])
+  })
+
   test('refuses before anything is sent what 1C does not say', async () => {
     const protocol = over1c()
     for (const [text, reason] of [

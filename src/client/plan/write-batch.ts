@@ -69,9 +69,24 @@ function joined(protocol: PlanProtocol, batch: OpenBatch, unit: WriteUnit): bool
 }
 
 function rowWith(protocol: PlanProtocol, { row }: OpenBatch, { area, from, to, content }: WriteUnit): OpenBatch['row'] {
-  if (row === undefined || content.kind === 'masked') return undefined
+  if (row === undefined) return undefined
+  if (content.kind === 'masked') return maskedRow(protocol, area, row, { from, to })
   const grown = from === row.to ? { from: row.from, to } : to === row.from ? { from, to: row.to } : undefined
   return grown !== undefined && rowFits(protocol, area, grown.to - grown.from) ? grown : undefined
+}
+
+/** Words that are read and written back, where no Read Random takes scattered ones: those of the row, and the next. */
+function maskedRow(
+  protocol: PlanProtocol,
+  area: Area,
+  row: NonNullable<OpenBatch['row']>,
+  { from, to }: NonNullable<OpenBatch['row']>,
+): OpenBatch['row'] {
+  if (lackOf(protocol.profile, 'readRandom') === undefined || from < row.from || from > row.to) return undefined
+  const grown = { from: row.from, to: Math.max(row.to, to) }
+  const cells = grown.to - grown.from
+  const isRead = fits(boundsOf(protocol, 'readWords', area.ways.form, limitedUnit(area)), directLoad(area, cells))
+  return isRead && rowFits(protocol, area, cells) ? grown : undefined
 }
 
 export function rowFits(protocol: PlanProtocol, area: Area, cells: number): boolean {
