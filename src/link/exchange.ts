@@ -16,6 +16,8 @@ export interface Exchange<T> extends Question {
   readonly answered: boolean
   /** Bytes of the body of an answer that takes the request; `undefined` when only the answer tells. */
   answerBody(): number | undefined
+  /** Bytes of the frame of such an answer; `undefined` when only the answer tells. */
+  answerSize(): number | undefined
   /** @throws EndCodeError when the PLC refused, ProtocolError when the answer cannot be one to this request. */
   decode(frame: ResponseFrame): T
 }
@@ -29,12 +31,17 @@ export interface Envelope<H extends Head> {
   readonly head: H
 }
 
+/** What of an exchange depends on its frame. */
+export type OfFrame = 'write' | 'mismatch' | 'answerBody' | 'answerSize'
+
 /** What depends on the frame of an exchange. Without a serial number the frame is always the same, so it is written once. */
 export function framed<H extends Head>(
   { framing, head }: Envelope<H>,
   { body, responseLength }: Pick<Exchange<unknown>, 'body' | 'responseLength'>,
-): Pick<Exchange<unknown>, 'write' | 'mismatch' | 'answerBody'> {
+): Pick<Exchange<unknown>, OfFrame> {
   let always: Buffer | undefined
+  const answerBody = () => responseLength(head, NOTHING)
+  let size: number | undefined
   const isSerial = framing.correlation === 'serial'
   return {
     write(serial) {
@@ -43,7 +50,12 @@ export function framed<H extends Head>(
       return always
     },
     mismatch: (answered) => framing.mismatch(head, answered),
-    answerBody: () => responseLength(head, NOTHING),
+    answerBody,
+    answerSize() {
+      const length = size === undefined ? answerBody() : undefined
+      if (length !== undefined) size = answerBytes({ framing, head }, length)
+      return size
+    },
   }
 }
 

@@ -37,6 +37,8 @@ export interface Scanned<Frame> {
    * begins like it, and over a stream it may come later than the frame.
    */
   readonly mayFollow?: Buffer
+  /** More bytes behind it would show that it is another frame, damaged: it counts once the line is silent, where lines have noise. */
+  readonly endsWithSilence?: true
 }
 
 /**
@@ -103,8 +105,10 @@ export interface Job extends Question, Scheduled {
   readonly roundTrips?: RoundTrips | undefined
   /** Absolute time, on the clock the session is given, after which nobody waits any more. */
   readonly deadline: number
-  /** ms it was given in all, waiting included: once sent it may use at least a share of it (`SHARE` in session.ts). */
+  /** ms it was given in all, waiting included: once sent it may use at least a share of it (`SHARE` in allowance.ts). */
   readonly allowance?: number
+  /** ms that the PLC is told to wait before it answers (message wait of the serial frames). */
+  readonly answerDelay?: number | undefined
   /** Sent although nothing proves that earlier answers are not still on their way (see `Fence`): a locked PLC echoes nothing. */
   readonly needsNoProof?: boolean
 }
@@ -112,7 +116,8 @@ export interface Job extends Question, Scheduled {
 /** How a job ended. */
 export type JobEnd =
   | { readonly kind: 'answered'; readonly frame: ResponseFrame; readonly at: number }
-  | { readonly kind: 'timedOut'; readonly sent: boolean }
+  /** `isSilent`: not a byte of an answer came within the time that one may take. */
+  | { readonly kind: 'timedOut'; readonly sent: boolean; readonly isSilent?: true }
   | { readonly kind: 'disconnected'; readonly sent: boolean }
   /** Not sent: what must come back before it, so that its answer can be known (see `Fence`), did not in time. */
   | { readonly kind: 'unproved' }

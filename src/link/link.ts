@@ -9,7 +9,7 @@ export {
   endedWith,
   type RefusalFacts,
 } from './end-code-facts'
-export { answerBytes, type Envelope, type Exchange, framed } from './exchange'
+export { answerBytes, type Envelope, type Exchange, framed, type OfFrame } from './exchange'
 export { type Echo, Fence, type FenceOptions } from './fence'
 export type { FrameExplainer, KnownFrames, ReceivedFrame, SentFrame } from './frame-explainer'
 export type {
@@ -26,6 +26,7 @@ export type {
   SessionEvent,
 } from './framing'
 export { type Front, HeadProtocol, type HeadProtocolParts, type NamedCommand } from './head-protocol'
+export type { Echoing } from './own-echo'
 export { Recovery, type RecoveryOptions } from './recovery'
 export { Responder } from './responder'
 export { RoundTrips } from './round-trips'

@@ -8,9 +8,12 @@
 // needs a fence (fence.ts): each request waits until it is proved that nothing earlier is under way.
 // A line that is no connection (serial) cannot be made anew: it is brought to a known state (recovery.ts) instead.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
+import { sendBy } from './allowance'
 import type { Fence } from './fence'
-import type { AnswerFraming, Job, JobEnd, RequestFrame, ResponseFrame, Scanned, SessionEvent } from './framing'
+import { endsWith, type Found, findFrame } from './found'
+import type { AnswerFraming, Job, JobEnd, ResponseFrame, SessionEvent } from './framing'
 import { Incoming } from './incoming'
+import { OwnEcho } from './own-echo'
 import { type Recovery, type RecoveryOptions, recoveryOf } from './recovery'
 import { RoundTrips } from './round-trips'
 import { Scheduler } from './scheduler'
@@ -55,21 +58,6 @@ interface Pending<J> extends Outgoing<J> {
   readonly sentAt: number
 }
 
-/** What stands at the front of the received bytes. `unasked`: an answer that belongs to no request. */
-type Found =
-  | { readonly used: number; readonly kind: 'answer'; readonly answer: Scanned<ResponseFrame> }
-  | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame }
-  | { readonly used: number; readonly kind: 'unasked' }
-
-const MAX_FRAME = 65_536
-/**
- * A request is sent only while so much of its allowance is left, and while an answer usually comes within what is left.
- * One that is sent too late expires without an answer, and takes the connection with it.
- */
-const SHARE = 1 / 10
-/** A request that has not waited is sent whatever the round trips were: they may have become shorter. */
-const LARGEST_SHARE = 0.9
-
 export class Session<J extends Job = Job> {
   readonly #framing: AnswerFraming
   readonly #options: SessionOptions
@@ -79,7 +67,7 @@ export class Session<J extends Job = Job> {
   readonly #waiting = new Scheduler<J>()
   #output: Outgoing<J>[] = []
   #events: SessionEvent<J>[] = []
-  readonly #received = new Incoming()
+  readonly #received: Incoming
   readonly #serials: SerialNumbers
   readonly #roundTrips: RoundTrips
   #answeredAt = Number.NEGATIVE_INFINITY
@@ -100,6 +88,7 @@ export class Session<J extends Job = Job> {
     this.#fence = fence
     fence?.begin()
     this.#recovery = options.kind === 'stream' ? recoveryOf(framing, options.recovery) : undefined
+    this.#received = new Incoming(this.#recovery && new OwnEcho(options.recovery?.echo ?? 'auto'))
     this.#serials = options.serials ?? new SerialNumbers()
     this.#roundTrips = options.roundTrips ?? new RoundTrips()
   }
@@ -124,6 +113,12 @@ export class Session<J extends Job = Job> {
     let queued = 0
     for (const job of this.#waiting) if (belongs(job)) queued += 1
     return { inFlight: this.#pending.filter(({ job }) => belongs(job)).length, queued }
+  }
+
+  /** A line that can recover begins in a known state: what was asked on it before may still be answered. */
+  begin(now: number): void {
+    this.#recovery?.opened(now)
+    this.#recover(now)
   }
 
   submit(job: J, now: number): void {
@@ -170,11 +165,12 @@ export class Session<J extends Job = Job> {
 
   /** Ends what is overdue. Call it when `nextTimeout` is reached. */
   timeout(now: number): void {
-    for (const job of [...this.#waiting].filter((entry) => this.#sendBy(entry) <= now)) this.#tooLate(job)
+    for (const job of [...this.#waiting].filter((entry) => sendBy(entry, this.#roundTrips) <= now)) this.#tooLate(job)
     const late = this.#pending.filter((entry) => entry.job.deadline <= now)
     for (const { job, sentAt, sent } of late) this.#finish(job, { kind: 'timedOut', sent }, sentAt)
     if (late.length > 0) this.#giveUp(late, 'no answer before the deadline', now)
     if (this.#halfUntil !== undefined && this.#halfUntil <= now) this.#endHalf(now)
+    if (this.#answerBy !== undefined && this.#answerBy <= now) this.#silence(now)
     this.#fill(now)
   }
 
@@ -196,14 +192,13 @@ export class Session<J extends Job = Job> {
   /** When something is due, or `undefined` when nothing waits. */
   nextTimeout(now: number): number | undefined {
     let earliest: number | undefined
-    if (this.#waiting.peek(now) !== undefined) earliest = this.#fence?.due ?? this.#recovery?.due
-    earliest = earlier(earliest, this.#halfUntil)
+    if (this.#waiting.peek(now) !== undefined) earliest = this.#fence?.due ?? this.#recovery?.due(now)
+    earliest = earlier(earlier(earliest, this.#halfUntil), this.#answerBy)
     if (this.#pending.length < this.#options.window) earliest = earlier(earliest, this.#waiting.due(now))
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
     // Nothing waits between the requests of most programs.
     for (const job of this.#waiting.size > 0 ? this.#waiting : []) {
-      const sendBy = this.#sendBy(job)
-      if (earliest === undefined || sendBy < earliest) earliest = sendBy
+      earliest = earlier(earliest, sendBy(job, this.#roundTrips))
     }
     return earliest
   }
@@ -218,7 +213,11 @@ export class Session<J extends Job = Job> {
     const next = this.#output.shift()
     if (next === undefined) return undefined
     next.sent = true
-    if (this.#recovery !== undefined && next.job !== undefined) this.#received.mayEcho(next.bytes)
+    const { bytes, job } = next
+    if (this.#recovery !== undefined && job !== undefined) {
+      this.#received.mayEcho(bytes)
+      this.#recovery.asked(bytes.length, job.answerDelay ?? 0, this.#pending.at(-1)?.sentAt ?? 0)
+    }
     return next
   }
 
@@ -231,7 +230,7 @@ export class Session<J extends Job = Job> {
     while (!this.#dropped && this.#pending.length < this.#options.window) {
       const job = this.#waiting.peek(now)
       if (job === undefined) return
-      if (this.#sendBy(job) <= now) {
+      if (sendBy(job, this.#roundTrips) <= now) {
         this.#tooLate(job)
         continue
       }
@@ -243,13 +242,6 @@ export class Session<J extends Job = Job> {
       this.#pending.push(entry)
       this.#output.push(entry)
     }
-  }
-
-  /** After this it is not sent any more. */
-  #sendBy({ deadline, allowance, roundTrips = this.#roundTrips }: J): number {
-    if (allowance === undefined) return deadline
-    const needed = Math.max(allowance * SHARE, roundTrips.long)
-    return deadline - Math.min(needed, allowance * LARGEST_SHARE)
   }
 
   /** Ends a waiting job that cannot be answered in time any more. */
@@ -279,16 +271,21 @@ export class Session<J extends Job = Job> {
 
   #receiveStream(chunk: Buffer, now: number): void {
     this.#received.add(chunk)
+    this.#readStream(now, false)
+  }
+
+  /** @param isAll nothing more comes for now */
+  #readStream(now: number, isAll: boolean): void {
     try {
-      while (!this.#dropped && !this.#received.passOver() && this.#received.length > 0) {
+      while (!this.#dropped && !this.#received.passOver(isAll) && this.#received.length > 0) {
         if (this.#skipNoise()) continue
-        const found = this.#find(this.#received.bytes)
+        const found = this.#find(this.#received.bytes, isAll || this.#recovery === undefined)
         if (found === undefined) break
         this.#received.mayFollow(found.kind === 'answer' ? found.answer.mayFollow : undefined)
         this.#take(found, now)
         this.#received.take(found.used)
       }
-      this.#refuseEndlessFrame()
+      this.#received.refuseEndless(this.#options.maxFrame)
     } catch (error) {
       this.#fail(error, now)
     }
@@ -308,19 +305,28 @@ export class Session<J extends Job = Job> {
     return this.#received.length === 0 ? undefined : this.#recovery?.halfUntil
   }
 
+  /** Of a request of which nothing has come. */
+  get #answerBy(): number | undefined {
+    return this.#received.length > 0 ? undefined : this.#recovery?.answerBy
+  }
+
+  #silence(now: number): void {
+    const silent = this.#pending.filter((entry) => entry.sent)
+    for (const { job, sentAt } of silent) this.#finish(job, { kind: 'timedOut', sent: true, isSilent: true }, sentAt)
+    this.#giveUp(silent, 'no answer within its time', now)
+  }
+
   #endHalf(now: number): void {
+    this.#readStream(now, true)
     const { bytes } = this.#received
-    this.#received.clear()
+    if (bytes.length === 0) return
     if (this.#pending.some((entry) => entry.sent)) {
       const message = `An answer stopped after ${bytes.length} byte(s).`
       this.#fail(new ProtocolError('TRUNCATED', message, { offset: bytes.length, bytes }), now)
-    } else this.#events.push({ kind: 'stray' })
-  }
-
-  #refuseEndlessFrame(): void {
-    const limit = this.#options.maxFrame ?? MAX_FRAME
-    if (this.#received.length <= limit) return
-    throw new ProtocolError('BAD_FRAME', `A frame of more than ${limit} bytes does not end.`)
+      return
+    }
+    this.#received.clear()
+    this.#events.push({ kind: 'stray' })
   }
 
   /** One datagram is one frame. What does not fit is looked at before anything of it is believed. */
@@ -328,7 +334,7 @@ export class Session<J extends Job = Job> {
     const { length } = datagram
     if (this.#isOfFence(datagram)) return
     try {
-      const found = this.#find(datagram)
+      const found = this.#find(datagram, true)
       if (found === undefined) {
         throw new ProtocolError('TRUNCATED', 'A datagram ended before its frame did.', {
           offset: length,
@@ -353,20 +359,12 @@ export class Session<J extends Job = Job> {
     return seen !== undefined
   }
 
-  /** The frame at the front, or `undefined` when it is not complete. */
-  #find(bytes: Buffer): Found | undefined {
-    if (this.#framing.response.isUnsolicited?.(bytes) === true) {
-      const unsolicited = this.#framing.request.scan(bytes, () => undefined)
-      return unsolicited && { used: unsolicited.used, kind: 'unsolicited', frame: unsolicited.frame }
-    }
-    // With nothing asked, an answer without a serial number belongs to nobody; 1E could not even tell where it ends.
-    if (this.#framing.correlation === 'order' && !this.#pending.some((entry) => entry.sent)) {
-      return { used: bytes.length, kind: 'unasked' }
-    }
-    const scanned = this.#framing.response.scan(bytes, (head, soFar) =>
-      this.#pending[0]?.job.responseLength(head, soFar),
-    )
-    return scanned && { used: scanned.used, kind: 'answer', answer: scanned }
+  #find(bytes: Buffer, isAll: boolean): Found | undefined {
+    return findFrame(this.#framing, bytes, {
+      isAsked: this.#framing.correlation === 'serial' || this.#pending.some((entry) => entry.sent),
+      responseLength: (head, soFar) => this.#pending[0]?.job.responseLength(head, soFar),
+      isAll,
+    })
   }
 
   #take(found: Found, now: number): void {
@@ -414,6 +412,7 @@ export class Session<J extends Job = Job> {
     if (allowance !== undefined) roundTrips.add(now - found.sentAt)
     this.#answeredAt = now
     this.#fence?.answered()
+    this.#recovery?.answered()
     this.#finish(found.job, { kind: 'answered', frame, at: now }, found.sentAt)
     if (this.#options.kind === 'datagram' && this.#framing.correlation === 'order') this.#renew('answered')
   }
@@ -440,8 +439,9 @@ export class Session<J extends Job = Job> {
   /** Brings the line to a known state, where that can be done. @returns whether it can */
   #recover(now: number): boolean {
     if (this.#recovery === undefined) return false
+    const hasCome = this.#received.length > 0
     this.#received.clear()
-    const bytes = this.#recovery.begin(now)
+    const bytes = this.#recovery.begin(now, hasCome)
     if (bytes.length > 0) this.#output.unshift({ bytes, job: undefined, sent: false })
     return true
   }
@@ -487,10 +487,4 @@ export class Session<J extends Job = Job> {
 
 function earlier(a: number | undefined, b: number | undefined): number | undefined {
   return a === undefined || (b !== undefined && b < a) ? b : a
-}
-
-/** Whether the datagram holds what was found and nothing behind it but what may follow. */
-function endsWith(found: Found, datagram: Buffer): boolean {
-  const rest = datagram.subarray(found.used)
-  return rest.length === 0 || (found.kind === 'answer' && found.answer.mayFollow?.equals(rest) === true)
 }

@@ -20,6 +20,7 @@ import {
   type Framing,
   framed,
   type Head,
+  type OfFrame,
   type RequestFrame,
   type ResponseFrame,
 } from '../link/link'
@@ -122,7 +123,7 @@ function unknownDigits(options: CommandSetOptions): UnknownDigits[] {
 }
 
 /** A request without its frame. */
-interface Asked<T> extends Omit<Exchange<T>, 'write' | 'mismatch' | 'answerBody'> {}
+interface Asked<T> extends Omit<Exchange<T>, OfFrame> {}
 
 /** The commands as bodies, without frames: from both sides. */
 export class SlmpCommandSet {

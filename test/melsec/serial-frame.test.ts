@@ -192,6 +192,8 @@ describe.each(titled)('$title', ({ options }) => {
       const bytes = Buffer.concat([Buffer.from(rubbish), session.transmit() ?? Buffer.alloc(0), answer(code, text)])
       for (const chunk of how === 'at once' ? [bytes] : [...bytes].map((byte) => Buffer.of(byte)))
         session.receive(chunk, 0)
+      // The line is silent then: the end of ACK and NAK in format 1.
+      session.timeout(1)
       const done = eventsOf(session).filter(({ kind }) => kind === 'done')
       expect(done).toMatchObject([{ outcome: { kind: 'answered', frame: { endCode: code, body: Buffer.from(text) } } }])
     }

@@ -344,5 +344,6 @@ const CONNECTING: Exchange<undefined> = {
   mismatch: () => undefined,
   responseLength: () => undefined,
   answerBody: () => undefined,
+  answerSize: () => 0,
   decode: () => undefined,
 }

@@ -210,5 +210,8 @@ function scanShort(layout: AsciiLayout, bytes: Buffer, end: number): Scanned<Res
   const { head } = contentOf(layout, bytes, codeAt)
   const endCode = bytes[0] === NAK ? uintAt(bytes, codeAt, errorDigits === 2 ? 1 : 2, true) : 0
   if (bytes[0] === NAK && endCode === 0) failAt('BAD_FIELD', codeAt, bytes, 'NAK carries no error code')
-  return { used: crLf ? used + 2 : used, frame: { head, serial: undefined, endCode, body: EMPTY } }
+  const frame = { head, serial: undefined, endCode, body: EMPTY }
+  if (crLf) return { used: used + 2, frame }
+  // Nothing marks its end: a NAK that was read as ACK, or data that were read as NAK, differ in what follows only.
+  return used > codeEnd ? { used, frame } : { used, frame, endsWithSilence: true }
 }
