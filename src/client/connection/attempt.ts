@@ -41,6 +41,7 @@ export class Attempt implements LineUser {
   #silent = 0
   #receivedAnything = false
   #over = false
+  #absentFor: number | undefined
   /** What the line gave back when it ended; what is asked from then on until the owner is told joins it. */
   #ends: readonly LineEnd[] | undefined
 
@@ -48,7 +49,7 @@ export class Attempt implements LineUser {
     this.#options = options
     this.#line = line
     this.#owner = owner
-    this.#opening = new Opening(options, probe)
+    this.#opening = new Opening(options, probe, (exchange) => line.timeOf(exchange, options.messageWait))
   }
 
   /** Name of the request that is to prove the connection and has no answer yet. */
@@ -63,6 +64,14 @@ export class Attempt implements LineUser {
 
   get peer(): string {
     return this.#line.peer
+  }
+
+  /**
+   * On a line where silence shows soon that a PLC is not there, and it did: ms that it is not asked again at least, so that
+   * the others keep their pace.
+   */
+  get absentFor(): number | undefined {
+    return this.#absentFor
   }
 
   get queued(): number {
@@ -149,7 +158,7 @@ export class Attempt implements LineUser {
 
   /** Sends it when its turn comes. `flush` afterwards. */
   submit(call: Call, now = this.#options.clock.now()): void {
-    call.over(this, this.#owner.roundTrips)
+    call.over(this, this.#owner.roundTrips, this.#options.messageWait)
     if (this.#ends === undefined) this.#line.submit(call, now)
     else this.#ends = [...this.#ends, { job: call, outcome: { kind: 'disconnected', sent: false }, sentAt: undefined }]
   }
@@ -195,8 +204,10 @@ export class Attempt implements LineUser {
   settled({ job, outcome, sentAt }: LineEnd): void {
     if (outcome.kind === 'answered')
       this.#answered(job, outcome.frame, sentAt === undefined ? undefined : outcome.at - sentAt)
-    else if (outcome.kind === 'timedOut') this.#timedOut(job, outcome.sent)
-    else if (outcome.kind === 'unproved') this.#unproved(job)
+    else if (outcome.kind === 'timedOut') {
+      if (outcome.isSilent === true && sentAt !== undefined) this.#absentFor = this.#line.pauseOfAbsent(sentAt)
+      this.#timedOut(job, outcome.sent)
+    } else if (outcome.kind === 'unproved') this.#unproved(job)
     else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
     // `disconnected` is met by `end` only.
     else if (outcome.kind === 'failed') this.#failed(job, outcome.error)
@@ -245,8 +256,9 @@ export class Attempt implements LineUser {
     const isProbe = this.#opening.owns(job)
     if (sent && !job.exchange.answered) {
       takeAsDone(job)
-      // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know.
-      this.#lost(failure.reset(this.peer))
+      // The PLC has forgotten this connection: a request on it would be lost, and of a write nobody would know. A line that
+      // is no connection is as good as before.
+      if (!this.#line.canRecover) this.#lost(failure.reset(this.peer))
       return
     }
     if (!isProbe) this.#owner.counters.counts.timeouts += 1
@@ -258,7 +270,8 @@ export class Attempt implements LineUser {
       if (isProbe) this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
       return
     }
-    this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes))
+    const by = this.#absentFor === undefined ? 'deadline' : 'answer time'
+    this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes, by))
   }
 
   /** It waited so long that an answer would not come in time: the connection is as good as before. */
@@ -279,8 +292,9 @@ export class Attempt implements LineUser {
     const unproved = this.#opening.owns(job) || !this.#receivedAnything
     job.fail(error)
     this.#silent += 1
-    // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew.
-    if (unproved || this.#silent >= SILENT_REQUESTS)
+    // Without bytes for a while nothing tells a dead cable from a slow PLC, so the connection is made anew. Where its
+    // answer would have begun by now it is not there: another request would cost the others as much time again.
+    if (unproved || this.#absentFor !== undefined || this.#silent >= SILENT_REQUESTS)
       this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
   }
 }

@@ -23,6 +23,11 @@ export interface BoundOptions extends CallOptions {
    * pointer, may mean something else on the next.
    */
   readonly onlyOn?: number
+  /**
+   * Set where nobody said how long the call may take, as without a timeout: what the request takes on a slow line comes on
+   * top of `timeout`, and this is told how much.
+   */
+  readonly growing?: { grow(ms: number): void }
 }
 
 /** A call may wait for a day, as the option `timeout` of the client. */
@@ -105,6 +110,7 @@ export class Call implements Job {
   /** ms it was given in all. */
   readonly allowance?: number
   readonly caller: unknown
+  #answerDelay: number | undefined
   #plc: object | undefined
   #roundTrips: RoundTrips | undefined
 
@@ -121,10 +127,15 @@ export class Call implements Job {
     this.caller = caller
   }
 
-  /** It goes over a line: for this PLC, whose answers take so long. */
-  over(plc: object, roundTrips: RoundTrips): void {
+  /** It goes over a line: for this PLC, whose answers take so long, and which is told to wait before them. */
+  over(plc: object, roundTrips: RoundTrips, answerDelay?: number): void {
     this.#plc = plc
     this.#roundTrips = roundTrips
+    this.#answerDelay = answerDelay
+  }
+
+  get answerDelay(): number | undefined {
+    return this.#answerDelay
   }
 
   /** Whose it is on the line. */

@@ -57,8 +57,10 @@ export interface ConnectionOptions {
   readonly queueLimit: number
   /** ms */
   readonly connectTimeout: number
-  /** Default deadline of a call, ms. */
+  /** Default deadline of a call, ms; what its request takes on a slow line comes on top. */
   readonly timeout: number
+  /** ms that the PLC is told to wait before it answers (message wait of the serial frames); default 0. */
+  readonly messageWait?: number
   /** Opens a PLC that is locked by a remote password. */
   readonly unlocking?: Unlocking
   /**

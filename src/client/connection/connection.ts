@@ -126,8 +126,9 @@ export class Connection {
       settle.fail(refusal)
       return
     }
-    const { timeout = usual, signal, onlyOn, caller } = options
+    const { signal, onlyOn, caller } = options
     const now = this.#clock.now()
+    const timeout = (options.timeout ?? usual) + this.#onTop(exchange, options)
     const call = new Call(exchange, now + timeout, settle, { sends, onlyOn, allowance: timeout, caller })
     if (sends) this.#counters.counts.requests += 1
     if (signal !== undefined) {
@@ -137,6 +138,14 @@ export class Connection {
       )
     }
     this.#guard(() => this.#start(call, now))
+  }
+
+  /** What a request takes on a slow line: nobody who leaves the timeout to us need know it. */
+  #onTop(exchange: Exchange<unknown>, { timeout, growing }: BoundOptions): number {
+    if (timeout !== undefined && growing === undefined) return 0
+    const ms = this.#line.timeOf(exchange, this.#options.messageWait)
+    if (ms > 0) growing?.grow(ms)
+    return ms
   }
 
   #refusalOf(exchange: Exchange<unknown>, signal: AbortSignal | undefined): PlcError | undefined {
@@ -271,11 +280,13 @@ export class Connection {
     const attempt = this.#attempt
     this.#attempt = undefined
     const probe = attempt?.probing
-    const pause = attempt?.isFinal(error) === true ? Number.POSITIVE_INFINITY : 0
-    if (attempt !== undefined && probe !== undefined && this.#probing.lost(error)) {
+    const absentFor = attempt?.absentFor
+    const pause = attempt?.isFinal(error) === true ? Number.POSITIVE_INFINITY : absentFor
+    const isUnanswered = probe !== undefined && this.#probing.lost(error)
+    if (attempt !== undefined && isUnanswered && (absentFor === undefined || this.#isNew)) {
       const next = this.#probing.next?.probe.name ?? ''
       this.#supervisor.again(failure.probeUnanswered(attempt.peer, probe, next, error), this.#clock.now())
-    } else this.#supervisor.lost(error, this.#clock.now(), pause)
+    } else this.#supervisor.lost(error, this.#clock.now(), pause, absentFor !== undefined)
     if (attempt?.isOpen === true) this.#counters.counts.disconnects += 1
     attempt?.end((call, sent) => this.#handedBack(call, sent, error))
     if (!this.#supervisor.hopeful) {
@@ -285,6 +296,14 @@ export class Connection {
     }
     this.#tellState()
     this.#schedule()
+  }
+
+  /**
+   * Whether it was never reached, at the first attempt. Where silence costs others their time, only then the next probe is
+   * tried at once: later each attempt asks the next one.
+   */
+  get #isNew(): boolean {
+    return !this.#answeredBefore && this.#supervisor.attempt <= 1
   }
 
   /** A call on a connection that is gone. What was sent is never sent again; the rest may wait for the next one. */

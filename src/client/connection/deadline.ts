@@ -1,7 +1,7 @@
 // One call's deadline and signal, for calls of several requests and for what comes before a request.
 import { ClosedError, type TimeoutError } from '../../errors'
 import type { Clock } from '../../transport/clock'
-import { type CallOptions, optionProblem } from './call'
+import { type BoundOptions, type CallOptions, optionProblem } from './call'
 import * as failure from './failure'
 
 const USUAL: CallOptions = {}
@@ -9,7 +9,7 @@ const USUAL: CallOptions = {}
 /** The absolute end of one call: all its requests and all its waiting share it. */
 export class Deadline {
   readonly #clock: Clock
-  readonly #end: number
+  #end: number
   readonly #options: CallOptions
 
   /**
@@ -26,10 +26,27 @@ export class Deadline {
 
   /** What is left of the call, for its next request. @throws TimeoutError when nothing is left */
   options(title: string): CallOptions {
-    const timeout = this.#end - this.#clock.now()
-    if (timeout <= 0) throw failure.notSentInTime(title)
     // Without a caller of its own, all requests of the call are one caller's: the call's.
-    return this.#options === USUAL ? { caller: this, timeout } : { caller: this, ...this.#options, timeout }
+    return { caller: this, ...this.#options, timeout: this.#left(title) }
+  }
+
+  /** The same for a request of the connection. @throws TimeoutError when nothing is left */
+  ofRequest(title: string): BoundOptions {
+    const timeout = this.#left(title)
+    if (this.#options === USUAL) return { caller: this, timeout, growing: this }
+    if (this.#options.timeout !== undefined) return { caller: this, ...this.#options, timeout }
+    return { caller: this, ...this.#options, timeout, growing: this }
+  }
+
+  #left(title: string): number {
+    const left = this.#end - this.#clock.now()
+    if (left <= 0) throw failure.notSentInTime(title)
+    return left
+  }
+
+  /** What its requests take on a slow line comes on top, where nobody said how long it may take. */
+  grow(ms: number): void {
+    this.#end += ms
   }
 
   /** Waits for the end of something else. Rejects with a `PlcError` when the call ends before it. */

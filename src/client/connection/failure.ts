@@ -152,12 +152,14 @@ function mostLikely(causes: readonly string[]): string {
   return causes[0] === undefined ? '' : ` Most likely: ${causes[0]}`
 }
 
-export function noAnswer(title: string, peer: string, causes: readonly string[]): TimeoutError {
-  return new TimeoutError(
-    `${title}: no answer from ${peer} before the deadline.${mostLikely(causes)}`,
-    'unknown',
-    causes,
-  )
+export function noAnswer(
+  title: string,
+  peer: string,
+  causes: readonly string[],
+  by: 'deadline' | 'answer time' = 'deadline',
+): TimeoutError {
+  const when = by === 'deadline' ? 'before the deadline' : 'within the answer time of the line'
+  return new TimeoutError(`${title}: no answer from ${peer} ${when}.${mostLikely(causes)}`, 'unknown', causes)
 }
 
 /** Connected, but nothing answers. */

@@ -4,6 +4,7 @@ import type { PlcError } from '../../errors'
 import {
   type AnswerFraming,
   type Echo,
+  type Exchange,
   Fence,
   type JobEnd,
   type RecoveryOptions,
@@ -27,7 +28,10 @@ export interface LineOptions {
   readonly inFlight: number
   /** ms */
   readonly connectTimeout: number
-  /** How the line is brought to a known state, for framings that have a way to; without it the line is dropped instead. */
+  /**
+   * How the line is brought to a known state, and its times, for framings that have a way to; without it the line is
+   * dropped instead.
+   */
   readonly recovery?: RecoveryOptions
   /** Default deadline of a call, ms: the proof of a fixed port is asked again several times within it. */
   readonly timeout: number
@@ -65,6 +69,12 @@ export interface LineUser {
   lost(error: PlcError | undefined): void
 }
 
+/** The most of the time of a line that is spent on PLCs that are not there, while others use it. */
+const SHARE_OF_ABSENT = 1 / 10
+
+/** Characters of the longest answer of the manuals (960 words in ASCII code), where nobody knows it before. */
+const LONGEST_ANSWER = 3872
+
 /** How soon the proof of a fixed port is asked again, as a part of the deadline of a usual call: datagrams get lost. */
 const PROOFS_PER_TIMEOUT = 8
 
@@ -86,6 +96,8 @@ export class Line {
   #alone: LineUser | undefined
   #carrier: Carrier | undefined
   #peer = 'the PLC'
+  /** Until then the time for PLCs that are not there is spent. */
+  #absentUntil = 0
 
   constructor(options: LineOptions) {
     const { clock, framing, proof, random, timeout } = options
@@ -119,6 +131,26 @@ export class Line {
 
   get framing(): AnswerFraming {
     return this.#options.framing
+  }
+
+  /** ms that a request with its answer may take on the line; 0 where nobody says how long its characters take. */
+  timeOf(exchange: Exchange<unknown>, wait = 0): number {
+    const { byteTime = 0, answerTime = 0, gap = 0 } = this.#options.recovery ?? {}
+    if (byteTime === 0 || !this.canRecover) return 0
+    const answer = exchange.answered ? (exchange.answerSize() ?? LONGEST_ANSWER) : 0
+    return (exchange.write(0).length + answer) * byteTime + wait + answerTime + gap
+  }
+
+  /**
+   * A PLC has not answered since `sentAt`: how long it is not asked again, ms. As long as others use the line, all those
+   * that are not there get a share of its time, one after the other.
+   */
+  pauseOfAbsent(sentAt: number): number {
+    const { answerTime = 0, quiet = 0 } = this.#options.recovery ?? {}
+    const now = this.#options.clock.now()
+    if (this.#users.size < 2) return answerTime
+    this.#absentUntil = Math.max(this.#absentUntil, now) + (now - sentAt + quiet) / SHARE_OF_ABSENT
+    return this.#absentUntil - now
   }
 
   /** Requests of this user that are in flight, and that wait for their turn. */
@@ -205,12 +237,13 @@ export class Line {
   }
 
   #opened(carrier: Carrier): void {
-    const { framing, inFlight, recovery } = this.#options
+    const { clock, framing, inFlight, recovery } = this.#options
     const { transport } = carrier
     carrier.openBy = undefined
     const given = { kind: transport.kind, window: inFlight, serials: this.#serials }
     const options = recovery === undefined ? given : { ...given, recovery }
     carrier.session = new Session<Call>(framing, options, this.#fenceFor(transport))
+    carrier.session.begin(clock.now())
     for (const user of [...this.#users]) if (this.#users.has(user)) user.opened()
     this.flush()
   }

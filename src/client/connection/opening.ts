@@ -17,13 +17,16 @@ type Options = Pick<ConnectionOptions, 'unlocking' | 'timeout' | 'connectTimeout
 export class Opening {
   readonly #options: Options
   readonly #probe: NextProbe | undefined
+  readonly #timeOf: (exchange: Exchange<unknown>) => number
   #call: Call | undefined
   #unlocking = false
   #corrected = false
   #heardAt = 0
 
-  constructor(options: Options, probe: NextProbe | undefined) {
+  /** `timeOf`: ms that an exchange takes on a slow line. */
+  constructor(options: Options, probe: NextProbe | undefined, timeOf: (exchange: Exchange<unknown>) => number) {
     this.#options = options
+    this.#timeOf = timeOf
     this.#probe = probe
   }
 
@@ -99,7 +102,8 @@ export class Opening {
   #make(exchange: Exchange<unknown>, now: number, share: number): Call {
     const { timeout, connectTimeout } = this.#options
     // Nobody awaits it; how it ends is seen by the connection.
-    this.#call = new Call(exchange, now + share * Math.min(timeout, connectTimeout), {
+    const deadline = now + share * Math.min(timeout, connectTimeout) + this.#timeOf(exchange)
+    this.#call = new Call(exchange, deadline, {
       answer: (frame) => {
         if (frame !== undefined) exchange.decode(frame)
       },

@@ -130,15 +130,19 @@ export class Supervisor {
     this.#phase = { name: 'waiting', error, nextAttempt: now + this.#options.settleGap }
   }
 
-  /** The attempt failed, or the connection is gone or was dropped. `pauseAtLeast` may be Infinity: until `retry()`. */
-  lost(error: PlcError, now: number, pauseAtLeast = 0): void {
+  /**
+   * The attempt failed, or the connection is gone or was dropped. `pauseAtLeast` may be Infinity: until `retry()`.
+   * `isAbsent`: another attempt would fail as this did, so that nothing waits for it.
+   */
+  lost(error: PlcError, now: number, pauseAtLeast = 0, isAbsent = false): void {
     if (this.name === 'closed') return
     const shortLived = this.name === 'connected' && now - this.#connectedAt < STABLE
     // A connection that breaks again and again right after it was made must not become a storm of connects: there is at
     // least the first pause, and as long as nothing comes of the connections the pauses go on growing.
     if (shortLived && !this.#useful) this.#attempt = Math.max(1, this.#attemptsSpent)
     const failures = shortLived ? Math.max(1, this.#attempt) : this.#attempt
-    const next = now + Math.max(pauseAtLeast, this.#pause(failures))
+    if (isAbsent) this.#attempt = Math.max(1, this.#attempt)
+    const next = now + Math.max(pauseAtLeast, this.#pause(isAbsent ? this.#attempt : failures))
     this.#phase = { name: 'waiting', error, ...(next === Number.POSITIVE_INFINITY ? {} : { nextAttempt: next }) }
   }
 

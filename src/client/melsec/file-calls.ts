@@ -42,7 +42,7 @@ export function filePartsOf({ settings, options, protocol, connection, permit }:
         const heard = unheard !== undefined || signal === undefined ? unaborted : { ...unaborted, signal }
         const deadline = new Deadline(settings.clock, heard, settings.timeout)
         const bound = how.onlyOn === undefined ? {} : { onlyOn: how.onlyOn }
-        return connection.request(exchange, { ...deadline.options(command.title), ...bound })
+        return connection.request(exchange, { ...deadline.ofRequest(command.title), ...bound })
       },
     }),
   }

@@ -268,7 +268,7 @@ export class MelsecPlcClient implements MelsecClient {
     const deadline = new Deadline(clock, options && callOptionsOf(options), timeout)
     return this.#turns.open(deadline, (exchange) => {
       this.#permit(exchange.effect, exchange.title)
-      return this.#connection.request(exchange, deadline.options(exchange.title))
+      return this.#connection.request(exchange, deadline.ofRequest(exchange.title))
     })
   }
 
@@ -381,7 +381,7 @@ export class MelsecPlcClient implements MelsecClient {
   async selfTest(data?: string, options?: CallOptions): Promise<{ readonly roundTrip: number }> {
     const { deadline } = this.#call(options)
     const exchange = selfTestOf(this.#protocol, data)
-    return { roundTrip: await this.#connection.roundTrip(exchange, deadline.options(exchange.title)) }
+    return { roundTrip: await this.#connection.roundTrip(exchange, deadline.ofRequest(exchange.title)) }
   }
 
   module(model: string, place: ModulePlace): BufferMemory {
