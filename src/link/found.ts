@@ -6,6 +6,8 @@ export type Found =
   | { readonly used: number; readonly kind: 'answer'; readonly answer: Scanned<ResponseFrame> }
   | { readonly used: number; readonly kind: 'unsolicited'; readonly frame: RequestFrame }
   | { readonly used: number; readonly kind: 'unasked' }
+  /** An answer, if nothing more comes. */
+  | { readonly used: 0; readonly kind: 'held' }
 
 /** What the session knows when it looks. */
 export interface Known {
@@ -15,6 +17,8 @@ export interface Known {
   /** Nothing more comes for now, or whatever follows does not matter. */
   readonly isAll: boolean
 }
+
+const HELD: Found = { used: 0, kind: 'held' }
 
 /** The frame at the front, or `undefined` when it is not complete. @throws ProtocolError when it can be none */
 export function findFrame(framing: AnswerFraming, bytes: Buffer, known: Known): Found | undefined {
@@ -27,7 +31,7 @@ export function findFrame(framing: AnswerFraming, bytes: Buffer, known: Known): 
   const scanned = framing.response.scan(bytes, known.responseLength)
   if (scanned === undefined) return undefined
   // Only silence behind it shows that it is this frame.
-  if (scanned.endsWithSilence === true && !known.isAll && scanned.used === bytes.length) return undefined
+  if (scanned.endsWithSilence === true && !known.isAll && scanned.used === bytes.length) return HELD
   return { used: scanned.used, kind: 'answer', answer: scanned }
 }
 

@@ -23,6 +23,9 @@ export interface RecoveryOptions {
   readonly echo?: Echoing
 }
 
+/** ms within which adapters hand on what they have: the next character of a frame that goes on. */
+const ADAPTER = 20
+
 export class Recovery {
   readonly #bytes: Buffer
   readonly #options: RecoveryOptions
@@ -102,9 +105,10 @@ export class Recovery {
     return this.#quietFrom + this.#options.quiet
   }
 
-  /** When half a frame counts as all that comes of it. */
-  get halfUntil(): number {
-    return this.#lastByte + this.#options.betweenBytes
+  /** When half a frame counts as all that comes of it. `isHeld`: it is whole, if nothing more comes. */
+  halfUntil(isHeld: boolean): number {
+    const { betweenBytes, byteTime = 0 } = this.#options
+    return this.#lastByte + (isHeld ? Math.min(betweenBytes, ADAPTER + 2 * byteTime) : betweenBytes)
   }
 }
 

@@ -68,6 +68,8 @@ export class Session<J extends Job = Job> {
   #output: Outgoing<J>[] = []
   #events: SessionEvent<J>[] = []
   readonly #received: Incoming
+  /** What has come is an answer, if nothing more comes. */
+  #isHeld = false
   readonly #serials: SerialNumbers
   readonly #roundTrips: RoundTrips
   #answeredAt = Number.NEGATIVE_INFINITY
@@ -276,11 +278,13 @@ export class Session<J extends Job = Job> {
 
   /** @param isAll nothing more comes for now */
   #readStream(now: number, isAll: boolean): void {
+    this.#isHeld = false
     try {
       while (!this.#dropped && !this.#received.passOver(isAll) && this.#received.length > 0) {
         if (this.#skipNoise()) continue
         const found = this.#find(this.#received.bytes, isAll || this.#recovery === undefined)
-        if (found === undefined) break
+        this.#isHeld = found?.kind === 'held'
+        if (found === undefined || this.#isHeld) break
         this.#received.mayFollow(found.kind === 'answer' ? found.answer.mayFollow : undefined)
         this.#take(found, now)
         this.#received.take(found.used)
@@ -302,7 +306,7 @@ export class Session<J extends Job = Job> {
 
   /** Until when the rest of half a frame may come; `undefined` where it may come at any time, or nothing is there. */
   get #halfUntil(): number | undefined {
-    return this.#received.length === 0 ? undefined : this.#recovery?.halfUntil
+    return this.#received.length === 0 ? undefined : this.#recovery?.halfUntil(this.#isHeld)
   }
 
   /** Of a request of which nothing has come. */
@@ -374,6 +378,8 @@ export class Session<J extends Job = Job> {
         return
       case 'unsolicited':
         this.#events.push({ kind: 'unsolicited', frame: found.frame })
+        return
+      case 'held':
         return
       case 'unasked':
         if (this.#options.kind === 'stream' && this.#recovery === undefined) {

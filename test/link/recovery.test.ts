@@ -1,7 +1,7 @@
 // A line that is no connection: noise, echoes, silence and rubbish cost one request at most, and never the line.
 import { describe, expect, test } from '@jest/globals'
 import { type Framing, Session } from '../../src/link/link'
-import type { SerialHead } from '../../src/melsec/frame/serial-frames'
+import { type SerialHead, serialRoute } from '../../src/melsec/frame/serial-frames'
 import { serialFraming } from '../../src/melsec/frame/serial-framing'
 import { questionOf } from '../support/question'
 import { eventsOf, type TestJob } from './support'
@@ -186,4 +186,116 @@ test('what may not go yet is waited for, also when the line is in a known state 
   expect(line.session.nextTimeout(10 + QUIET)).toBe(5000)
   line.session.timeout(5000)
   expect(line.session.transmit()).toBeDefined()
+})
+
+describe('format 1, where nothing marks the end of ACK and NAK', () => {
+  const format1 = serialFraming({ frame: '3C', format: 1 })
+  const station = serialRoute('3C', { station: 2 })
+
+  function asking() {
+    const recovery = { quiet: QUIET, betweenBytes: 100, echo: 'never' } as const
+    const session = new Session<TestJob>(format1, { kind: 'stream', window: 1, recovery })
+    session.submit({ name: 'A', deadline: 1000, ...questionOf(format1, station, Buffer.from('1401')) }, 0)
+    session.transmit()
+    return session
+  }
+
+  const outcomes = (session: Session<TestJob>) =>
+    eventsOf(session).flatMap((event) => (event.kind === 'done' ? event.outcome.kind : []))
+
+  test('an ACK counts when nothing has followed it as long as an adapter keeps a character back', () => {
+    const session = asking()
+    session.receive(format1.response.write(station, 0, 0, Buffer.alloc(0)), 10)
+    expect([outcomes(session), session.nextTimeout(10)]).toEqual([[], 30])
+    session.timeout(30)
+    expect([outcomes(session), session.nextTimeout(30)]).toEqual([['answered'], undefined])
+  })
+
+  test('a NAK that the line has made an ACK is found out by its error code', () => {
+    const session = asking()
+    const nak = Buffer.from(format1.response.write(station, 0, 0x7143, Buffer.alloc(0)))
+    nak[0] = 0x06
+    session.receive(nak.subarray(0, -4), 10)
+    session.receive(nak.subarray(-4), 25)
+    expect(outcomes(session)).toEqual(['failed'])
+  })
+})
+
+describe('a line that begins', () => {
+  const asked = (framingOf: Framing<SerialHead>, answerTime?: number) => {
+    const recovery = { quiet: QUIET, betweenBytes: BETWEEN, ...(answerTime === undefined ? {} : { answerTime }) }
+    const session = new Session<TestJob>(framingOf, { kind: 'stream', window: 1, recovery })
+    session.begin(0)
+    session.submit({ name: 'A', deadline: 1000, ...questionOf(framingOf, head(1), Buffer.from('A')) }, 0)
+    return session
+  }
+
+  test('is brought to a known state: what was asked on it before may still be answered', () => {
+    const session = asked(framing)
+    expect([session.transmit(), session.transmit(), session.nextTimeout(0)]).toEqual([EOT, undefined, QUIET])
+    session.receive(Buffer.from('late'), 10)
+    session.timeout(QUIET)
+    expect(session.transmit()).toBeUndefined()
+    session.timeout(10 + QUIET)
+    expect(session.transmit()).toBeDefined()
+  })
+
+  test('where nothing ends that, waits as long as an answer may take', () => {
+    expect(asked(format5, 200).nextTimeout(0)).toBe(200 + QUIET)
+  })
+})
+
+describe('an answer that may still come', () => {
+  const RECOVERY = { quiet: QUIET, betweenBytes: BETWEEN, answerTime: 200, byteTime: 1, echo: 'never' } as const
+
+  function abandoned(came: Buffer) {
+    const session = new Session<TestJob>(framing, { kind: 'stream', window: 1, recovery: RECOVERY })
+    const job: TestJob = { name: 'A', deadline: 1000, ...questionOf(framing, head(1), Buffer.from('A')) }
+    session.submit(job, 0)
+    const request = session.transmit()?.length ?? 0
+    if (came.length > 0) session.receive(came, 4)
+    session.abandon(job, 5)
+    session.submit({ name: 'B', deadline: 1000, ...questionOf(framing, head(1), Buffer.from('B')) }, 5)
+    expect([session.transmit(), session.transmit()]).toEqual([EOT, undefined])
+    return { session, request }
+  }
+
+  test('to a request that was given up before anything came is waited for: EOT may get lost', () => {
+    const { session, request } = abandoned(Buffer.alloc(0))
+    expect(session.nextTimeout(5)).toBe(request + 200 + QUIET)
+    // It comes, and is nobody's.
+    const late = framing.response.write(head(1), 0, 0, Buffer.from('a'))
+    session.receive(late, 150)
+    session.timeout(request + 200 + QUIET)
+    expect(session.transmit()).toBeDefined()
+    expect(eventsOf(session).map(({ kind }) => kind)).toEqual(['stray'])
+  })
+
+  test('is on its way when a part of it has come: then the line has to be quiet only', () => {
+    const { session } = abandoned(framing.response.write(head(1), 0, 0, Buffer.from('a')).subarray(0, 8))
+    expect(session.nextTimeout(5)).toBe(5 + QUIET)
+  })
+})
+
+test('a request of which nothing has come is silent after the time of its characters, its wait and the answer time', () => {
+  const recovery = { quiet: QUIET, betweenBytes: BETWEEN, answerTime: 50, byteTime: 2, gap: 7 }
+  const session = new Session<TestJob>(framing, { kind: 'stream', window: 1, recovery })
+  const ask = (name: string, now: number, answerDelay?: number) => {
+    session.submit({ name, deadline: now + 1000, answerDelay, ...questionOf(framing, head(1), Buffer.from(name)) }, now)
+    return session.transmit()
+  }
+  const length = ask('A', 0)?.length ?? 0
+  expect(session.nextTimeout(0)).toBe(2 * length + 50)
+  session.receive(framing.response.write(head(1), 0, 0, Buffer.from('an answer that is longer')), 40)
+  expect(ask('B', 41, 30)).toBeUndefined()
+  expect(session.nextTimeout(41)).toBe(47)
+  session.timeout(47)
+  expect(session.transmit()).toBeDefined()
+  const silentAt = 47 + 2 * length + 30 + 50
+  // Noise is no answer.
+  session.receive(Buffer.of(0x55), 60)
+  expect(session.nextTimeout(60)).toBe(silentAt)
+  session.timeout(silentAt)
+  const ends = eventsOf(session).flatMap((event) => (event.kind === 'done' ? [event.outcome] : []))
+  expect(ends).toMatchObject([{ kind: 'answered' }, { kind: 'timedOut', sent: true, isSilent: true }])
 })
