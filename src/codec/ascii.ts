@@ -86,13 +86,21 @@ export class AsciiReader extends Input implements Reader {
     let at = this.need(count * 4)
     const buffer = this.buffer
     const values = new Array<number>(count)
-    for (let i = 0; i < count; i++, at += 4) {
-      const word =
-        ((VALUE[buffer[at] as number] as number) << 12) |
-        ((VALUE[buffer[at + 1] as number] as number) << 8) |
-        ((VALUE[buffer[at + 2] as number] as number) << 4) |
-        (VALUE[buffer[at + 3] as number] as number)
-      // A single wrong digit is -1 and makes the whole word negative: one check for four digits.
+    let i = 0
+    // Four in each turn of the loop, as in binary code; and one check for all their digits.
+    for (; i + 4 <= count; i += 4, at += 16) {
+      const word = wordAt(buffer, at)
+      const second = wordAt(buffer, at + 4)
+      const third = wordAt(buffer, at + 8)
+      const fourth = wordAt(buffer, at + 12)
+      if ((word | second | third | fourth) < 0) this.#badDigitFrom(at)
+      values[i] = word
+      values[i + 1] = second
+      values[i + 2] = third
+      values[i + 3] = fourth
+    }
+    for (; i < count; i++, at += 4) {
+      const word = wordAt(buffer, at)
       if (word < 0) this.#badDigitFrom(at)
       values[i] = word
     }
@@ -141,6 +149,16 @@ export class AsciiReader extends Input implements Reader {
       `${show(this.buffer[at] as number)} is not a hexadecimal digit 0-9, A-F`,
     )
   }
+}
+
+/** A single wrong digit is -1 and makes the whole word negative. */
+function wordAt(buffer: Buffer, at: number): number {
+  return (
+    ((VALUE[buffer[at] as number] as number) << 12) |
+    ((VALUE[buffer[at + 1] as number] as number) << 8) |
+    ((VALUE[buffer[at + 2] as number] as number) << 4) |
+    (VALUE[buffer[at + 3] as number] as number)
+  )
 }
 
 function show(character: number): string {

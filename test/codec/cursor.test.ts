@@ -123,6 +123,15 @@ describe.each(codes)('%s', (code) => {
   })
 })
 
+test('of many words in ASCII code the first digit that is none is found, wherever it stands', () => {
+  const digits = '0123456789ABCDEF'.repeat(3).slice(0, 4 * 11)
+  for (let at = 0; at < digits.length; at++) {
+    const characters = Buffer.from(`${digits.slice(0, at)}G${digits.slice(at + 1, -1)}g`)
+    const read = () => readerOf('ascii', characters).words(11)
+    expect(read).toThrow(expect.objectContaining({ code: 'BAD_DIGIT', offset: at }))
+  }
+})
+
 test('a writer grows, and is empty after take and clear', () => {
   const writer = new BinaryWriter()
   const values = Array.from({ length: 1000 }, (_, i) => i)
