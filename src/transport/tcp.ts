@@ -113,6 +113,8 @@ class TcpTransport implements Transport {
     const { port, localAddress, localPort, keepAlive = DEFAULT_KEEP_ALIVE } = this.#options
     // Reading into one buffer and lending what came costs less than Node's fresh 64 KB each time, or a copy.
     const buffer = Buffer.allocUnsafeSlow(READ_BUFFER_SIZE)
+    // Most chunks are as long as the one before: the same view serves again.
+    let lent = buffer
     const socket = connect({
       host: address,
       port,
@@ -127,7 +129,8 @@ class TcpTransport implements Transport {
         callback: (length) => {
           this.#history.answered = true
           if (this.#state !== 'open') return true
-          this.#handlers?.received(buffer.subarray(0, length))
+          if (lent.length !== length) lent = buffer.subarray(0, length)
+          this.#handlers?.received(lent)
           return true
         },
       },
