@@ -1,10 +1,12 @@
 // The options of a client: what is filled in, and what is refused before anything is connected.
 import { describe, expect, test } from '@jest/globals'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
 import { settle } from '../../src/client/melsec/settings'
 import { RequestError } from '../../src/errors'
 import { ownStation } from '../../src/melsec/frame/route'
 import { profileIds } from '../../src/melsec/profiles/profile'
+import { profiles } from '../../src/melsec/profiles/profiles'
 import { realClock } from '../../src/transport/clock'
 
 const peer = { host: '192.168.3.39', port: 5007 }
@@ -203,6 +205,13 @@ describe('refused', () => {
     expect(refused).toThrow(RequestError)
     expect(refused).toThrow(expect.objectContaining({ field, outcome: 'notSent' }))
     expect(refused).toThrow(says)
+  })
+
+  test.each(profileIds)('every frame of %s makes a client', async (profile) => {
+    for (const frame of profiles[profile].frames) {
+      const client = createMelsecClient({ ...peer, profile, frame })
+      await client.close()
+    }
   })
 
   test('more in flight is taken with 4E over UDP, up to what the profile bears', () => {

@@ -62,7 +62,9 @@ export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): S
 
 /** As a client speaks it. @throws RequestError as `protocolOver1c` */
 export function clientProtocolOver1c(options: ProtocolOptions): ClientProtocol {
-  const { profile, asciiXy } = options
+  const { profile } = options
+  // The digits are settled already, also where the family has no setting.
+  const asciiXy = profile.asciiXy === 'setting' ? options.asciiXy : undefined
   const { head, messageWait, ...serial } = serialOptionsOf(options)
   const framing = serialFraming({ ...serial, frame: '1C' })
   return protocolOver1c({ profile, asciiXy, head, messageWait, framing })
