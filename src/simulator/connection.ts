@@ -4,7 +4,7 @@ import { type Effect, type Message, withoutSecrets } from '../codec/codec'
 import { type Framing, Responder } from '../link/link'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'
-import type { EthernetFrameName } from '../melsec/frame/frames'
+import type { EthernetFrameName, FrameName } from '../melsec/frame/frames'
 import { ownStation, type Route } from '../melsec/frame/route'
 import { writeOnDemand } from '../melsec/on-demand'
 import type { Clock } from '../transport/clock'
@@ -28,8 +28,10 @@ export interface RequestEvent {
   readonly connection: number
   /** The client, e.g. `127.0.0.1:50231`. */
   readonly remote: string
+  /** Of a simulated line: the station. */
+  readonly station?: number
   /** Frame it came in. */
-  readonly frame: EthernetFrameName
+  readonly frame: FrameName
   /** Name of the command; undefined when it is none that is declared, or its data are wrong. */
   readonly command: CommandName | undefined
   /** What the command does; undefined when it is none that is declared. */

@@ -109,6 +109,11 @@ const rows = {
     parameters: { window: { title: 'ms a request waits for the next one', min: 1, default: 5 } },
   },
   damaged: { title: 'A character (byte) of the answer is lost, doubled or changed', parameters: damage },
+  misheard: {
+    title: 'A character of the request arrives lost, doubled or changed (serial lines)',
+    parameters: damage,
+  },
+  wrongSum: { title: 'The sum check code of the answer is wrong (serial lines)', parameters: {} },
   noise: {
     title: 'Bytes of any value some time after the answer was due',
     parameters: {

@@ -13,6 +13,8 @@ export interface FaultSubject {
   readonly connection: number
   /** The client, e.g. `127.0.0.1:50231`. */
   readonly remote: string
+  /** Of a simulated line: the station. */
+  readonly station?: number
 }
 
 /** Which requests a fault meets. */

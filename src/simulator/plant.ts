@@ -15,6 +15,12 @@ export interface DemoPlantOptions {
   readonly autoStart?: boolean
 }
 
+/** What the plant needs of a simulated PLC: one that listens, or a station of a simulated line. */
+export interface PlantHost extends Pick<PlcSimulator, 'profile' | 'clock' | 'cpu' | 'read' | 'write'> {
+  /** Calls `listener` on the event; the returned function ends it. */
+  on(event: 'state' | 'restart' | 'clear' | 'close', listener: () => void): () => void
+}
+
 /** The mixing tank of the demo, while it runs. */
 export interface DemoPlant {
   /** Ends it; the devices keep their values. Also done by `close()` of the PLC. */
@@ -49,7 +55,7 @@ const TOO_HOT = 95
  * await plc.listen()
  * const plant = startDemoPlant(plc)
  */
-export function startDemoPlant(plc: PlcSimulator, options: DemoPlantOptions = {}): DemoPlant {
+export function startDemoPlant(plc: PlantHost, options: DemoPlantOptions = {}): DemoPlant {
   const { interval = 200, autoStart = true } = options
   if (!(Number.isFinite(interval) && interval >= 1)) {
     throw new RequestError('BAD_OPTION', `interval is 1 ms or more, not ${String(interval)}.`, 'interval')
@@ -82,7 +88,7 @@ export function startDemoPlant(plc: PlcSimulator, options: DemoPlantOptions = {}
 const LONGEST_STEP = 1
 
 class Plant {
-  readonly #plc: PlcSimulator
+  readonly #plc: PlantHost
   readonly #autoStart: boolean
   readonly #tags = new Map<PlantTagName, PlantTag>()
   readonly #tank = new Tank()
@@ -91,7 +97,7 @@ class Plant {
   #batchTime = 0
   #mixed = 0
 
-  constructor(plc: PlcSimulator, autoStart: boolean) {
+  constructor(plc: PlantHost, autoStart: boolean) {
     this.#plc = plc
     this.#autoStart = autoStart
     this.initialize()

@@ -1,5 +1,7 @@
 // The PLC behind the wire: what it answers to a request, without frames, connections or time.
+import type { Message } from '../codec/codec'
 import type { CommandName } from '../melsec/commands/commands'
+import type { DeviceName } from '../melsec/device/device'
 import type { Route } from '../melsec/frame/route'
 import type { Profile } from '../melsec/profiles/profile'
 import type { ReceivedRequest, SlmpCommandSet } from '../melsec/protocol'
@@ -21,6 +23,12 @@ export type Answer =
   | { readonly kind: 'data'; readonly body: Buffer }
   | { readonly kind: 'refused'; readonly endCode: number; readonly message: string; readonly abnormal?: number }
   | { readonly kind: 'none' }
+
+/** What is asked of a station of a serial line: in the SLMP set, or in 1C, whose limits and devices were checked where it was read. */
+export type LineAsked = { readonly request: ReceivedRequest } & (
+  | { readonly protocol: SlmpCommandSet; readonly respond?: undefined }
+  | { readonly protocol?: undefined; readonly respond: (response: Message) => Buffer }
+)
 
 /** Commands that a port takes while the remote password locks it. */
 const FREE: readonly CommandName[] = ['unlock', 'lock']
@@ -123,6 +131,19 @@ export class Plc {
     if (respond === undefined) throw new TypeError('a 1E request without a way to answer')
     this.#refreshSystemDevices()
     return { kind: 'data', body: respond(handle(request, call)) }
+  }
+
+  /** Carries a request of a serial line out: the line has looked at its route. @throws Refusal */
+  answerOnLine({ request, protocol, respond }: LineAsked, call: HandlerCall): Answer {
+    if (protocol !== undefined) checkRequest(this.profile, protocol.code, request)
+    this.#refreshSystemDevices()
+    if (protocol !== undefined) return this.#carryOut(protocol, request, call)
+    return { kind: 'data', body: respond(handle(request, call)) }
+  }
+
+  /** Sets a bit device, as the system of the CPU does. */
+  setRelay(device: DeviceName, number: number, on: boolean): void {
+    this.#devices.writeBits({ device, number }, [on])
   }
 
   /** Power goes off: everything that is not latched is lost. */

@@ -1,4 +1,5 @@
 // A simulated PLC that listens: on TCP, on UDP and in memory.
+import { badOption } from '../basics/option-checks'
 import { ClosedError } from '../errors'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'
@@ -160,7 +161,9 @@ export interface PlcSimulator {
  * plc.write('D100:REAL', 1.5)
  */
 export function createPlcSimulator(options: PlcSimulatorOptions = {}): PlcSimulator {
-  return new Simulator(settingsOf(options))
+  const settings = settingsOf(options)
+  if (settings.frames.length === 0) badOption('profile', `${settings.profile.title}: use createLineSimulator().`)
+  return new Simulator(settings)
 }
 
 class Simulator implements PlcSimulator {

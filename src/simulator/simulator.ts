@@ -14,12 +14,25 @@ export {
 export type { ActiveFault, Fault, FaultAim, FaultSubject } from './faults'
 export type { OpenFile } from './files'
 export type { SimulatedLabel, SimulatedLabels } from './labels'
+export {
+  createLineSimulator,
+  type LineEvents,
+  type LineFrameDetails,
+  type LineHost,
+  type LineSimulator,
+  type LineSimulatorOptions,
+  type LineSpeed,
+  type LineStationOptions,
+  type SimulatedStation,
+  type StationEvents,
+} from './line'
 export type { ExtensionMemory } from './memory'
 export type { PlcSimulatorOptions, PortOptions } from './options'
 export {
   type DemoPlant,
   type DemoPlantOptions,
   demoPlantTags,
+  type PlantHost,
   type PlantTag,
   type PlantTagName,
   type PlantVariant,

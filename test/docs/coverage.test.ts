@@ -97,6 +97,20 @@ describe('options', () => {
     }
   })
 
+  test('of a simulated line and its stations are those in docs/simulator.md', () => {
+    expect(namesIn('docs/simulator.md', 'options: line simulator').sort()).toEqual(
+      membersOf('src/simulator/line-options.ts', 'LineSimulatorOptions').sort(),
+    )
+    const [, stations = ''] = proseOf('docs/simulator.md').split('### Stations')
+    const [named = ''] = stations.split('###')
+    const [own = ''] = readText('src/simulator/line-options.ts').match(/(?<=Pick<\s+PlcSimulatorOptions,)[^>]*/) ?? []
+    const picked = [...own.matchAll(/'(\w+)'/g)].map(([, name = '']) => name)
+    expect(picked.length).toBeGreaterThan(5)
+    expect(codeSpansOf(named)).toEqual(
+      expect.arrayContaining([...picked, ...membersOf('src/simulator/line-options.ts', 'LineStationOptions')]),
+    )
+  })
+
   test('of a profile that users may set are in docs/client.md', () => {
     const named = codeSpansOf(proseOf('docs/client.md').split('### Profile overrides')[1] ?? '')
     expect(named).toEqual(expect.arrayContaining(membersOf('src/melsec/profiles/profile.ts', 'ProfileOverrides')))

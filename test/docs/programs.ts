@@ -3,7 +3,13 @@ import { format } from 'node:util'
 import * as address from '../../src/entry/address'
 import * as codec from '../../src/entry/codec'
 import * as simulation from '../../src/entry/simulator'
-import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/entry/simulator'
+import {
+  createLineSimulator,
+  createPlcSimulator,
+  type LineSimulatorOptions,
+  type PlcSimulator,
+  type PlcSimulatorOptions,
+} from '../../src/entry/simulator'
 import * as plc from '../../src/index'
 import type { Fence } from './markdown'
 
@@ -16,9 +22,12 @@ const READERS_PORT = 5010
 /** And an FX3, which speaks 1E only. */
 const READERS_FX3_PORT = 5551
 
+/** A simulated PLC, or a line of them. */
+type Simulated = Pick<PlcSimulator, 'tcp' | 'close'> & Partial<Pick<PlcSimulator, 'udp'>>
+
 /** Opens simulated PLCs and gives a program the package with its addresses led to them. */
 export class Bench {
-  readonly #simulators = new Map<PlcSimulator, number | undefined>()
+  readonly #simulators = new Map<Simulated, number | undefined>()
 
   async open(): Promise<void> {
     const simulator = createPlcSimulator({
@@ -66,11 +75,17 @@ export class Bench {
   #entries(): Readonly<Record<string, Module>> {
     const createMelsecClient = (options: plc.MelsecClientOptions) => plc.createMelsecClient(this.#ledHere(options))
     const simulator = (options: PlcSimulatorOptions = {}) => this.#simulator(options)
+    const line = (options: LineSimulatorOptions = {}) => {
+      const { tcp } = options
+      const made = createLineSimulator({ ...options, tcp: tcp === false ? false : {} })
+      this.#simulators.set(made, tcp === false ? undefined : tcp?.port)
+      return made
+    }
     return {
       '@melsec-jw/plc': { ...plc, createMelsecClient },
       '@melsec-jw/plc/address': address,
       '@melsec-jw/plc/codec': codec,
-      '@melsec-jw/plc/simulator': { ...simulation, createPlcSimulator: simulator },
+      '@melsec-jw/plc/simulator': { ...simulation, createPlcSimulator: simulator, createLineSimulator: line },
     }
   }
 
