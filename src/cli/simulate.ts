@@ -2,18 +2,16 @@ import { Option } from 'commander'
 import {
   createPlcSimulator,
   demoPlantTags,
-  type Endpoint,
   type ExtensionMemory,
   type PlcSimulator,
   type PlcSimulatorOptions,
   plantVariantOf,
   startDemoPlant,
 } from '../entry/simulator'
-import { type EthernetFrameName, ethernetFrameNames, type ProfileId } from '../index'
+import { ethernetFrameNames, frameNames } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addCodeOptions, frameOption, jsonOption, profileOption, simulatedPassword, whole } from './connection-options'
 import { drivesOf } from './drive-option'
-import { endCodeText } from './end-code'
 import { exitCodes } from './exit-code'
 import { faultHelp, faultOf } from './fault-option'
 import { interruption } from './interruption'
@@ -21,6 +19,8 @@ import { labelsOf } from './label-option'
 import { moduleOf } from './module-option'
 import { onDemandWords, sendAgainAndAgain, takeLines } from './on-demand'
 import { json, table } from './output'
+import { addLineOptions, isLine, type LineOptions, lineExamples, simulateLine } from './simulate-line'
+import { addressRow, addressText, isLoopback, outcomeText, plantTable } from './simulated'
 import type { Terminal } from './terminal'
 
 const examples = [
@@ -29,28 +29,20 @@ const examples = [
   'simulate --on-demand 1,2,3 --on-demand-every 500',
   "simulate --label Line1.Speed:REAL=12.5 --label 'Line1.Values:INT[10]=1,2,3'",
   'simulate --port 0 --no-udp --fault delay:ms=500 --fault endCode:endCode=C056,commands=readWords,times=1',
+  ...lineExamples,
 ]
 
 /** The port of the demo, too. */
 const USUAL_PORT = 5007
 
-interface SimulateOptions {
-  readonly profile: ProfileId
-  readonly host: string
-  readonly port: number
+interface SimulateOptions extends LineOptions {
   readonly udpPort?: number
   readonly tcp: boolean
   readonly udp: boolean
-  readonly frame?: EthernetFrameName
   readonly ascii?: boolean
-  readonly asciiXy?: 'octal' | 'hexadecimal'
   readonly asciiZr?: 'decimal' | 'hexadecimal'
-  readonly plant?: boolean
-  readonly fault: readonly string[]
   readonly drive: readonly string[]
-  readonly scanTime?: number
   readonly maxConnections?: number
-  readonly resetAllowed?: boolean
   readonly onDemand?: readonly number[]
   readonly onDemandEvery: number
   readonly interactive?: boolean
@@ -61,8 +53,6 @@ interface SimulateOptions {
   readonly password?: boolean
   readonly passwordAttempts?: number
   readonly lockOutTime?: number
-  readonly log?: boolean
-  readonly json?: boolean
 }
 
 /** `melsec-jw simulate` */
@@ -82,7 +72,7 @@ export const simulateCommand: MakeCommand = (run) => {
     .addOption(new Option('--udp-port <number>', 'another UDP port').argParser(whole(0, 65535)))
     .option('--no-tcp', 'no TCP')
     .option('--no-udp', 'no UDP')
-    .addOption(frameOption('take this frame only; default: all of the profile', ethernetFrameNames))
+    .addOption(frameOption('take this frame only; default: all of the profile', frameNames))
   addCodeOptions(command)
   command
     .option('--plant', 'run the demo plant in it: a mixing tank')
@@ -129,8 +119,12 @@ export const simulateCommand: MakeCommand = (run) => {
     .option('--interactive', 'take lines from the standard input: "ondemand 1 2 3" sends On-demand once')
     .option('--log', 'print every request')
     .addOption(jsonOption())
-    .addHelpText('after', faultHelp)
-  return command.action((options: SimulateOptions) => perform(run, options, () => simulate(run.terminal, options)))
+  addLineOptions(command).addHelpText('after', faultHelp)
+  return command.action((options: SimulateOptions) =>
+    perform(run, options, async () =>
+      isLine(command, options) ? simulateLine(run.terminal, command, options) : simulate(run.terminal, options),
+    ),
+  )
 }
 
 function collect(text: string, before: readonly string[]): readonly string[] {
@@ -174,13 +168,15 @@ function simulatorOptions(options: SimulateOptions): PlcSimulatorOptions {
     module: modules,
     bufferMemory,
   } = options
+  // Others are those of a serial line.
+  const taken = ethernetFrameNames.find((name) => name === frame)
   return {
     profile,
     host,
     tcp: options.tcp ? { port } : false,
     udp: options.udp ? { port: udpPort } : false,
     code: options.ascii === true ? 'ascii' : 'binary',
-    ...(frame === undefined ? {} : { frames: [frame] }),
+    ...(taken === undefined ? {} : { frames: [taken] }),
     ...(asciiXy === undefined ? {} : { asciiXy }),
     ...(asciiZr === undefined ? {} : { asciiZr }),
     ...(scanTime === undefined ? {} : { scanTime }),
@@ -225,30 +221,6 @@ function show(terminal: Terminal, plc: PlcSimulator, options: Shown): void {
     terminal.error(`Everybody who reaches ${options.host} can write to this simulated PLC.`)
 }
 
-function isLoopback(host: string): boolean {
-  return host === 'localhost' || host === '::1' || host.startsWith('127.')
-}
-
-function addressRow(name: string, endpoint: Endpoint | undefined): readonly (readonly string[])[] {
-  return endpoint === undefined ? [] : [[name, addressText(endpoint)]]
-}
-
-function addressText({ host, port }: Endpoint): string {
-  return `${host.includes(':') ? `[${host}]` : host}:${port}`
-}
-
-function plantTable(tags: (typeof demoPlantTags)['iq-r']): string {
-  return table(
-    tags.map(({ name, address, title, unit, writable }) => [
-      address,
-      name,
-      unit === undefined ? title : `${title} (${unit})`,
-      ...(writable ? ['may be written'] : []),
-    ]),
-    '  ',
-  )
-}
-
 /** A command that reads something from it. */
 function trial({ tcp, udp, profile }: PlcSimulator, { ascii, frame, plant, password, names }: Shown): string {
   const peer = tcp ?? udp
@@ -267,14 +239,5 @@ function trial({ tcp, udp, profile }: PlcSimulator, { ascii, frame, plant, passw
 
 function logRequests(terminal: Terminal, plc: PlcSimulator): void {
   plc.on('connection', ({ change, connection: { remote } }) => terminal.error(`${remote} ${change}`))
-  plc.on('request', (event) => {
-    const what = event.command ?? 'unknown command'
-    const answer =
-      event.endCode === undefined
-        ? 'not answered'
-        : event.endCode === 0
-          ? 'carried out'
-          : `refused ${endCodeText(event.endCode)}`
-    terminal.error(`${event.remote} ${what}: ${answer}`)
-  })
+  plc.on('request', (event) => terminal.error(`${event.remote} ${outcomeText(event)}`))
 }

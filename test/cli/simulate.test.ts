@@ -6,6 +6,7 @@ import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { commands } from '../../src/entry/codec'
 import { createPlcSimulator } from '../../src/entry/simulator'
 import { createMelsecClient, type MelsecClient, type MelsecOptions } from '../../src/index'
+import { ttyPair } from '../support/tty-pair'
 import { build, example, type Running, run, start, startWith } from './cli'
 import { runHere } from './in-process'
 
@@ -132,6 +133,17 @@ describe('simulate', () => {
     [['--fault', 'silence:commands=fly'], /there is no command "fly"/],
     [['--profile', 'iq-f', '--frame', '4E'], /frames is 4E; it must be 3E or 1E/],
     [['--port', '70000'], /0 to 65535/],
+    [['--echo'], /--echo is for a serial line/],
+    [['--no-sum-check'], /--no-sum-check is for a serial line/],
+    [['--stations', '0', '--password'], /A serial line has no --password/],
+    [['--stations', '0', '--no-udp'], /A serial line has no --no-udp/],
+    [['--stations', '0,x'], /numbers with commas between/],
+    [['--stations', '1,1'], /A station is there once/],
+    [['--stations', '16'], /stations.16 is 16; it must be a whole number from 0 to 15/],
+    [['--stations', '0', '--profile', 'iq-r'], /has no serial line/],
+    [['--frame', '3C', '--message-format', '5'], /frames is 3C; it must be 4C/],
+    [['--stations', '0', '--frame', '3E'], /frames is 3E; it must be 1C or 3C or 4C/],
+    [['--serial', 'COM1', '--baud-rate', '1'], /baudRate 1: give 300/],
   ])('%j is wrong use', async (args, message) => {
     const { code, out, err } = await runHere(['simulate', ...args])
     expect([code, out]).toEqual([2, ''])
@@ -144,6 +156,50 @@ describe('simulate', () => {
     expect(code).toBe(4)
     expect(err).toMatch(new RegExp(String(port)))
     expect(err).not.toMatch(/^\s+at /m)
+  })
+})
+
+describe('simulate, a serial line', () => {
+  test('with several stations at a port, as a device server has it', async () => {
+    const { program, port } = await simulate('--stations', '0,3', '--message-format', '4', '--plant', '--log')
+    await program.says(/Stations +0, 3\n +Format +4, with sum check code\n/)
+    await program.says(/Demo plant in each station:\n +M0:BOOL/)
+    const client = clientOf(port, { profile: 'fx5-serial', frame: '3C', messageFormat: 4, route: { station: 3 } })
+    expect(await client.read('D130:STRING(20)')).toBe('Apple juice')
+    await program.says(/station 3 readWords: carried out/)
+  })
+
+  test('at a serial port', async () => {
+    const pair = await ttyPair()
+    try {
+      const args = ['--baud-rate', '19200', '--frame', '3C', '--message-format', '4', '--stations', '0,1,2']
+      const program = start('simulate', '--serial', pair.near, ...args)
+      running.push(program)
+      await program.says(/Serial +serial .* \(19200 7O1\)\n +Stations +0, 1, 2\n/)
+      const client = createMelsecClient({
+        serial: { path: pair.far, baudRate: 19_200 },
+        profile: 'fx5-serial',
+        frame: '3C',
+        messageFormat: 4,
+        route: { station: 2 },
+      })
+      clients.push(client)
+      expect(await client.read('D0')).toBe(0)
+      expect((await program.interrupt()).code).toBe(0)
+    } finally {
+      await pair.close()
+    }
+  })
+
+  test('with faults, of another family', async () => {
+    const args = ['--profile', 'q-c24', '--message-format', '5', '--fault', 'endCode:endCode=7F24,times=1', '--json']
+    const program = start('simulate', '--port', '0', ...args)
+    running.push(program)
+    const [, port] = await program.says(/"port": (\d+)/)
+    const client = clientOf(Number(port), { profile: 'q-c24', frame: '4C', messageFormat: 5 })
+    expect(await client.read('D0')).toBe(0)
+    const { out } = await program.interrupt()
+    expect(JSON.parse(out)).toMatchObject({ profile: 'q-c24', stations: [0], messageFormat: 5, sumCheck: true })
   })
 })
 
