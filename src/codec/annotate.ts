@@ -1,10 +1,10 @@
 // A decoder that tells where each value stands: rows for traces and the frame decoder, from the same declarations.
 import { hex } from '../basics/hex'
 import { ProtocolError } from '../errors'
-import { asked, type Context, countToRead, sizeIn } from './count'
+import { type Context, countToRead, elementsAsked, sizeIn } from './count'
 import { placeText, type Reader } from './cursor'
 import { type DataCode, readerOf } from './data-code'
-import type { BulkField, Count, CountField, Field, Message, Shape } from './field'
+import { type Count, type CountField, type EachField, type Field, type Message, type Shape, standsIn } from './field'
 import { decode } from './layout'
 
 /** One field of a message, with its bytes. The rows of a message cover every byte exactly once, in order. */
@@ -106,6 +106,8 @@ class Walk {
   readonly #bytes: Buffer
   readonly #reader: Reader
   readonly #options: AnnotateOptions
+  /** The request, or the element of it that is being repeated. */
+  #context: Context | undefined
   /** Path of the field that is being read. */
   at = ''
   /** Bytes the finished rows cover. */
@@ -115,6 +117,7 @@ class Walk {
     this.#bytes = bytes
     this.#reader = readerOf(options.code, bytes, options.form)
     this.#options = options
+    this.#context = options.context
   }
 
   get position(): number {
@@ -134,16 +137,19 @@ class Walk {
 
   #field(name: string, field: Exclude<Field, CountField>, message: MessageSoFar, counted: number | undefined): void {
     const path = this.at
-    const count = (of: { readonly count: Count }) =>
-      counted ?? countToRead(of.count, name, message, this.#options.context)
+    const count = (of: { readonly count: Count }) => counted ?? countToRead(of.count, name, message, this.#context)
     switch (field.kind) {
       case 'u8':
       case 'u16':
       case 'u32':
       case 'value':
+      case 'rest':
         message[name] = this.#leaf(path, field)
         return
       case 'fixed':
+        if (!standsIn(field, this.#reader)) return
+        this.#leaf(path, field)
+        return
       case 'spare':
       case 'echo':
         this.#leaf(path, field)
@@ -159,7 +165,10 @@ class Walk {
         this.#list(name, field, count(field), message)
         return
       case 'each':
-        this.#each(name, field.of, field.item, message)
+        this.#each(name, field, message)
+        return
+      case 'repeat':
+        this.#repeat(field.of, field.item)
         return
       default:
         field satisfies never
@@ -177,19 +186,35 @@ class Walk {
     }
   }
 
-  #each(name: string, of: string, item: BulkField, message: MessageSoFar): void {
+  #each(name: string, { of, item, front = {} }: EachField, message: MessageSoFar): void {
     const path = this.at
     const parts: unknown[] = []
     message[name] = parts
-    for (const [i, element] of (asked(this.#options.context).message[of] as readonly Message[]).entries()) {
+    for (const [i, element] of elementsAsked(of, this.#context).entries()) {
+      this.#around(element, front, `${path}.${i}.`)
       this.at = `${path}.${i}`
-      parts.push(this.#leaf(this.at, { ...item, count: countToRead(item.count, '', element, undefined) }))
+      const counted =
+        'count' in item ? { ...item, count: countToRead(item.count, '', element.message, undefined) } : item
+      parts.push(this.#leaf(this.at, counted))
     }
   }
 
+  #repeat(of: string, item: Shape): void {
+    const path = this.at
+    for (const [i, element] of elementsAsked(of, this.#context).entries()) this.#around(element, item, `${path}.${i}.`)
+  }
+
+  /** Reads what repeats an element of the request. */
+  #around(element: Context, shape: Shape, path: string): void {
+    const whole = this.#context
+    this.#context = element
+    this.shape(shape, {}, path)
+    this.#context = whole
+  }
+
   /** Reads one field with the decoder itself, so that its checks hold here too. */
-  #leaf(name: string, field: Exclude<Field, { kind: 'list' | 'each' }>): unknown {
-    const { context } = this.#options
+  #leaf(name: string, field: Exclude<Field, { kind: 'list' | 'each' | 'repeat' }>): unknown {
+    const context = this.#context
     const value = this.#value(name.slice(name.lastIndexOf('.') + 1), withoutMultiple(field))
     this.#checkMultiple(name, field, value)
     const secret = isSecret(field, context)
@@ -218,8 +243,9 @@ class Walk {
   }
 
   /** The value of a field, of a derived one too: `decode` checks those and keeps them to itself. */
-  #value(name: string, field: Exclude<Field, { kind: 'list' | 'each' }>): unknown {
-    const { context, code } = this.#options
+  #value(name: string, field: Exclude<Field, { kind: 'list' | 'each' | 'repeat' }>): unknown {
+    const { code } = this.#options
+    const context = this.#context
     const start = this.#reader.position
     const { [name]: value } = decode<Shape>({ [name]: field }, this.#reader, context)
     switch (field.kind) {

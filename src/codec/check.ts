@@ -1,5 +1,5 @@
-import type { BulkField, Count, CountField, Field, IntegerField, Shape } from './field'
-import { WIDTH } from './field'
+import type { Count, CountField, EachField, Field, IntegerField, RestField, Shape } from './field'
+import { boundsOf, isVisible, WIDTH } from './field'
 
 /**
  * Checks at load that every name a declaration refers to exists and says what it must, so that a typing mistake in a
@@ -34,8 +34,12 @@ function problemOf(name: string, field: Field, shape: Shape, request: Shape | un
       return boundsProblem(field, field.width) ?? derivedProblem(name, field, shape)
     case 'echo':
       return echoProblem(fieldIn(request, field.of), field.of)
+    case 'rest':
+      return restProblem(name, field, shape)
     case 'each':
-      return eachProblem(field.of, field.item, fieldIn(request, field.of))
+      return eachProblem(field, fieldIn(request, field.of))
+    case 'repeat':
+      return repeatProblem(field.of, field.item, fieldIn(request, field.of))
     case 'words':
     case 'doubleWords':
     case 'bits':
@@ -61,10 +65,13 @@ function last(width: number): number {
 function integerProblem(field: IntegerField): string | undefined {
   const problem = boundsProblem(field, WIDTH[field.kind])
   if (problem !== undefined) return problem
-  const { min = 0, max = last(WIDTH[field.kind]), oneOf, multipleOf = 1 } = field
+  const { oneOf, multipleOf = 1 } = field
+  const [min, max] = boundsOf(field)
   const allowed = (number: number) =>
     number >= min && number <= max && number % multipleOf === 0 && oneOf?.includes(number) !== false
   if (oneOf?.every(allowed) === false) return 'has numbers in oneOf that its range excludes'
+  if (field.bcd === true && max >= 10 ** (2 * WIDTH[field.kind]))
+    return `goes up to ${max}, which its digits cannot say`
   if (field.default !== undefined && !allowed(field.default))
     return `has the default ${field.default}, which it refuses`
   return undefined
@@ -101,11 +108,31 @@ function derivedProblem(name: string, { of }: CountField, shape: Shape): string 
 
 function echoProblem(repeated: Field | undefined, of: string): string | undefined {
   if (repeated === undefined) return `repeats ${of}, which the request lacks`
-  return isNumber(repeated) || repeated.kind === 'value' ? undefined : `repeats ${of}, which is no single value`
+  return isNumber(repeated) || repeated.kind === 'value' || repeated.kind === 'rest'
+    ? undefined
+    : `repeats ${of}, which is no single value`
 }
 
-function eachProblem(of: string, item: BulkField, list: Field | undefined): string | undefined {
+/** It ends where the message ends, so nothing can stand behind it. */
+function restProblem(name: string, { min, max }: RestField, shape: Shape): string | undefined {
+  if (min < 0 || min > max) return `has the range ${min} to ${max}`
+  return Object.keys(shape).at(-1) === name ? undefined : 'takes the rest, and is not the last field'
+}
+
+function repeatProblem(of: string, item: Shape, list: Field | undefined): string | undefined {
   if (list?.kind !== 'list') return `goes over ${of}, which is no list of the request`
+  for (const [name, field] of Object.entries(item)) {
+    if (isVisible(field)) return `repeats an element of ${of}, and ${name} is its own`
+    const problem = problemOf(name, field, item, list.item)
+    if (problem !== undefined) return `has ${name}, which ${problem}`
+  }
+  return undefined
+}
+
+function eachProblem({ of, item, front = {} }: EachField, list: Field | undefined): string | undefined {
+  const repeated = repeatProblem(of, front, list)
+  if (repeated !== undefined || list?.kind !== 'list') return repeated
+  if (!('count' in item)) return integerProblem(item)
   const { count } = item
   if (typeof count === 'number' || isCountable(fieldIn(list.item, count))) return undefined
   return `is counted by ${count}, which an element of ${of} lacks`
@@ -135,5 +162,5 @@ function isNumber(field: Field): boolean {
 
 /** A number, or something whose length is one. */
 function isCountable(field: Field | undefined): boolean {
-  return field !== undefined && (isNumber(field) || 'count' in field)
+  return field !== undefined && (isNumber(field) || 'count' in field || field.kind === 'rest')
 }

@@ -1,5 +1,5 @@
 // What a count refers to: the one rule that writing, reading and measuring share.
-import type { Count, Message, Shape } from './field'
+import type { Count, Field, Message, Shape } from './field'
 
 /** The request a response answers: `echo`, `each` and counts refer to it. */
 export interface Context {
@@ -11,6 +11,14 @@ export interface Context {
 export function asked(context: Context | undefined): Context {
   if (context === undefined) throw new TypeError('A response is encoded and decoded with the request it answers')
   return context
+}
+
+/** The elements of the request's list `of`, each with its shape: what stands for one of them in an answer refers to it. */
+export function elementsAsked(of: string, context: Context | undefined): readonly Context[] {
+  const { shape, message } = asked(context)
+  const list: Field | undefined = shape[of]
+  if (list?.kind !== 'list') throw new TypeError(`The request has no list ${of}`)
+  return (message[of] as readonly Message[]).map((element) => ({ shape: list.item, message: element }))
 }
 
 /** Arrays and typed arrays. A DataView is a view too, but has no elements. */

@@ -4,8 +4,9 @@ import type { Shape } from './field'
 /**
  * What a command does to the PLC. Only `read` and `diagnose` may ever be repeated when the outcome is unknown.
  * `lock`: changes nothing but what other devices may do meanwhile, as opening a file does; it needs no permission.
+ * `configure`: changes what a PLC is set up as: parameters, passwords (Sharp JW).
  */
-export const effects = ['read', 'write', 'control', 'diagnose', 'lock'] as const
+export const effects = ['read', 'write', 'control', 'configure', 'diagnose', 'lock'] as const
 /** What a command does to the PLC. */
 export type Effect = (typeof effects)[number]
 

@@ -30,7 +30,7 @@ export interface FieldDescription {
   readonly of?: string
   /** What it means. */
   readonly doc?: string
-  /** Of a list: the fields of each element. */
+  /** Of a list: the fields of each element; of what repeats a list of the request: those that are repeated. */
   readonly item?: readonly FieldDescription[]
 }
 
@@ -46,7 +46,7 @@ export function describe(shape: Shape): FieldDescription[] {
     ...(field.kind === 'fixed' ? { value: field.value } : {}),
     ...('of' in field ? { of: field.of } : {}),
     ...('doc' in field && field.doc !== undefined ? { doc: field.doc } : {}),
-    ...(field.kind === 'list' ? { item: describe(field.item) } : {}),
+    ...(field.kind === 'list' || field.kind === 'repeat' ? { item: describe(field.item) } : {}),
   }))
 }
 

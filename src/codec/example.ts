@@ -38,6 +38,8 @@ function exampleValue(shape: Shape, path: readonly string[], field: Field, showV
     case 'bits':
     case 'bytes':
       return bulk(field, elements(shape, path, field.count))
+    case 'rest':
+      return '00'.repeat(Math.max(field.min, 1))
     default:
       return undefined
   }

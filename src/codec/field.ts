@@ -4,8 +4,11 @@ import type { ValueCodec, Width } from './cursor'
 /** How many elements: a fixed number, or the name of a number, count, list or bulk field of this message or the request. */
 export type Count = number | string
 
-/** Characters a text field may hold. `hexDigits`: 0-9 and A-F (Self Test). `printable`: 20H to 7EH (passwords). */
-export type Charset = 'any' | 'hexDigits' | 'printable'
+/**
+ * Characters a text field may hold. `hexDigits`: 0-9 and A-F (Self Test). `printable`: 20H to 7EH (passwords).
+ * `alphanumeric`: 0-9, A-Z and a-z (passwords of Sharp JW).
+ */
+export type Charset = 'any' | 'hexDigits' | 'printable' | 'alphanumeric'
 
 interface Documented {
   readonly doc?: string
@@ -26,9 +29,16 @@ export interface IntegerField extends Documented, Bounded {
   readonly default?: number
   /** The only numbers that may stand here. */
   readonly oneOf?: readonly number[]
+  /** Each half of a byte is a decimal digit: 59 as 59H (clock of Sharp JW). */
+  readonly bcd?: true
 }
 /** Bytes of an integer field. */
 export const WIDTH = { u8: 1, u16: 2, u32: 4 } as const satisfies Record<IntegerField['kind'], Width>
+
+/** The lowest and the highest number of an integer field. */
+export function boundsOf({ kind, min = 0, max, bcd }: IntegerField): readonly [min: number, max: number] {
+  return [min, max ?? (bcd === true ? 10 ** (2 * WIDTH[kind]) : 2 ** (8 * WIDTH[kind])) - 1]
+}
 
 /** Written, checked on reading, invisible in the message. */
 export interface FixedField extends Documented {
@@ -37,6 +47,8 @@ export interface FixedField extends Documented {
   readonly value: number
   /** ASCII code: these characters, where they are not the digits of the value. */
   readonly ascii?: string
+  /** It stands there in this form only (marker of Sharp JW lists). */
+  readonly inForm?: number
 }
 /** Written as zeros, invisible in the message; whatever is read there is passed over. */
 export interface SpareField extends Documented {
@@ -82,11 +94,25 @@ export interface ListField extends Documented {
   readonly count: Count
   readonly item: Shape
 }
+/** Bytes up to the end of the message, which says nowhere how many they are. The last field of a request. */
+export interface RestField extends Documented {
+  readonly kind: 'rest'
+  readonly min: number
+  readonly max: number
+}
 /** One item per element of the request's list `of`; the item's counts refer to that element. */
 export interface EachField extends Documented {
   readonly kind: 'each'
   readonly of: string
-  readonly item: BulkField
+  readonly item: BulkField | IntegerField
+  /** What of the element is repeated in front of its item: echoes of its fields, and fixed ones. */
+  readonly front?: Shape
+}
+/** Repeats of each element of the request's list `of` what `item` says, as `front` of `each`; invisible in the message. */
+export interface RepeatField extends Documented {
+  readonly kind: 'repeat'
+  readonly of: string
+  readonly item: Shape
 }
 
 export type Field =
@@ -98,8 +124,10 @@ export type Field =
   | ValueField
   | BulkField
   | TextField
+  | RestField
   | ListField
   | EachField
+  | RepeatField
 
 /**
  * The fields of a request or an answer, in the order they are sent.
@@ -110,13 +138,18 @@ export interface Shape {
 }
 
 /** Fields that are not in a message. */
-const INVISIBLE = ['fixed', 'spare', 'count', 'echo'] as const satisfies readonly Field['kind'][]
+const INVISIBLE = ['fixed', 'spare', 'count', 'echo', 'repeat'] as const satisfies readonly Field['kind'][]
 type Invisible = (typeof INVISIBLE)[number]
 export type VisibleField = Exclude<Field, { kind: Invisible }>
 
 /** Whether a field is in the message: the others are written and checked by themselves. */
 export function isVisible(field: Field): field is VisibleField {
   return !INVISIBLE.some((kind) => kind === field.kind)
+}
+
+/** Whether a fixed field is in messages of the form that is written or read. */
+export function standsIn({ inForm }: FixedField, { form }: { readonly form: number }): boolean {
+  return inForm === undefined || inForm === form
 }
 
 /** The field of a path as errors name it, e.g. `words.0.device`; undefined for one that the shape does not have. */
@@ -139,7 +172,7 @@ type ValueOf<F extends Field> = F extends { kind: 'u8' | 'u16' | 'u32' }
       ? readonly number[]
       : F extends { kind: 'bits' }
         ? readonly boolean[]
-        : F extends { kind: 'bytes' }
+        : F extends { kind: 'bytes' | 'rest' }
           ? Uint8Array
           : F extends { kind: 'text' }
             ? string
@@ -178,6 +211,7 @@ type IntegerOptions = {
   multipleOf?: number
   default?: number
   oneOf?: readonly number[]
+  bcd?: true
 }
 export const u8 = <const O extends IntegerOptions = Record<never, never>>(options?: O) =>
   ({ kind: 'u8', ...(options as O) }) as const
@@ -187,6 +221,9 @@ export const u32 = <const O extends IntegerOptions = Record<never, never>>(optio
   ({ kind: 'u32', ...(options as O) }) as const
 export const fixed = (value: number, width: Width, doc?: string) =>
   ({ kind: 'fixed', value, width, ...(doc ? { doc } : {}) }) as const
+/** A number that stands there in one form only. */
+export const fixedInForm = (value: number, width: Width, inForm: number, doc?: string) =>
+  ({ kind: 'fixed', value, width, inForm, ...(doc ? { doc } : {}) }) as const
 /** Characters that stand for themselves in ASCII code; `value` is what binary code has there. */
 export const fixedText = (ascii: string, value: number, width: Width, doc?: string) =>
   ({ kind: 'fixed', value, width, ascii, ...(doc ? { doc } : {}) }) as const
@@ -216,5 +253,9 @@ export const text = <const C extends Count>(
 ) => ({ kind: 'text', count, ...options }) as const
 export const list = <const C extends Count, const S extends Shape>(count: C, item: S, doc?: string) =>
   ({ kind: 'list', count, item, ...(doc ? { doc } : {}) }) as const
-export const each = <const N extends string, const F extends BulkField>(of: N, item: F) =>
-  ({ kind: 'each', of, item }) as const
+export const rest = (bounds: { min: number; max: number }, doc?: string) =>
+  ({ kind: 'rest', ...bounds, ...(doc ? { doc } : {}) }) as const
+export const each = <const N extends string, const F extends BulkField | IntegerField>(of: N, item: F, front?: Shape) =>
+  ({ kind: 'each', of, item, ...(front ? { front } : {}) }) as const
+export const repeat = <const N extends string, const S extends Shape>(of: N, item: S) =>
+  ({ kind: 'repeat', of, item }) as const

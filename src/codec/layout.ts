@@ -1,9 +1,10 @@
 // The one place that gives a field its meaning, for both directions and both codes.
 import { ProtocolError, RequestError } from '../errors'
-import { asked, type Context, countIn, countToRead, isArrayLike } from './count'
+import { asked, type Context, countIn, countToRead, elementsAsked, isArrayLike } from './count'
 import { badMessage, placeText, type Reader, type Writer } from './cursor'
 import {
   type BulkField,
+  boundsOf,
   type Charset,
   type Field,
   type IntegerField,
@@ -11,7 +12,9 @@ import {
   type Message,
   type MessageInput,
   type MessageOf,
+  type RestField,
   type Shape,
+  standsIn,
   type VisibleField,
   WIDTH,
 } from './field'
@@ -76,6 +79,7 @@ function put(
       writer.uint(integerToWrite(field, given), WIDTH[field.kind])
       return
     case 'fixed':
+      if (!standsIn(field, writer)) return
       if (writer.ascii && field.ascii !== undefined) writer.text(field.ascii)
       else writer.uint(field.value, field.width)
       return
@@ -111,8 +115,14 @@ function put(
         encodeMessage(field.item, element, writer, context)
       })
       return
+    case 'rest':
+      writer.bytes(restToWrite(field, given))
+      return
     case 'each':
-      putEach(field.of, field.item, given, writer, context)
+      putEach(field, given, writer, context)
+      return
+    case 'repeat':
+      eachOfRequest(field.of, context, (inner) => encodeMessage(field.item, {}, writer, inner))
       return
     default:
       field satisfies never
@@ -130,12 +140,33 @@ function putEcho(of: string, writer: Writer, context: Context | undefined): void
   put(shape[of] as Field, of, message[of], message, writer, undefined)
 }
 
-function putEach(of: string, item: BulkField, given: unknown, writer: Writer, context: Context | undefined): void {
-  const elements = asked(context).message[of] as readonly Message[]
+function putEach(
+  { of, item, front }: Extract<Field, { kind: 'each' }>,
+  given: unknown,
+  writer: Writer,
+  context: Context | undefined,
+): void {
+  const elements = elementsAsked(of, context)
   if (!Array.isArray(given)) badMessage(`must be an array, is ${show(given)}`)
   if (given.length !== elements.length)
     badMessage(`has ${given.length} element(s), the request's ${of} has ${elements.length}`)
-  eachToWrite(given as readonly unknown[], (part, i) => put(item, '', part, elements[i] as Message, writer, undefined))
+  eachToWrite(given as readonly unknown[], (part, i) => {
+    const inner = elements[i] as Context
+    if (front !== undefined) encodeMessage(front, {}, writer, inner)
+    put(item, '', part, inner.message, writer, undefined)
+  })
+}
+
+function eachOfRequest(of: string, context: Context | undefined, run: (element: Context) => void): void {
+  for (const element of elementsAsked(of, context)) run(element)
+}
+
+function restToWrite({ min, max }: RestField, given: unknown): ArrayLike<number> {
+  if (!isArrayLike(given)) badMessage(`must be an array, is ${show(given)}`)
+  if (given.length < min || given.length > max) {
+    badMessage(`has ${given.length} element(s), must have ${min} to ${max}`)
+  }
+  return given as ArrayLike<number>
 }
 
 /** Also goes over the holes of an array, which forEach leaves out: they were counted. */
@@ -156,15 +187,22 @@ function integerToWrite(field: IntegerField, given: unknown): number {
   if (number < min || number > max) badMessage(`is ${number}, must be ${min} to ${max}`)
   if (!isMultiple(field, number)) badMessage(`is ${number}, must be a multiple of ${field.multipleOf}`)
   if (field.oneOf?.includes(number) === false) badMessage(`is ${number}, must be one of ${field.oneOf.join(', ')}`)
-  return number === field.zeroMeans ? 0 : number
+  if (number === field.zeroMeans) return 0
+  return field.bcd === true ? toBcd(number) : number
+}
+
+function toBcd(number: number): number {
+  return Number.parseInt(String(number), 16)
+}
+
+/** The number of decimal digits, `undefined` where one of them is none. */
+function fromBcd(digits: number): number | undefined {
+  const text = digits.toString(16)
+  return /^\d+$/.test(text) ? Number(text) : undefined
 }
 
 function isMultiple({ multipleOf }: { readonly multipleOf?: number }, number: number): boolean {
   return multipleOf === undefined || number % multipleOf === 0
-}
-
-function boundsOf(field: IntegerField): readonly [min: number, max: number] {
-  return [field.min ?? 0, field.max ?? 2 ** (8 * WIDTH[field.kind]) - 1]
 }
 
 function countToWrite(field: Extract<Field, { kind: 'count' }>, length: number): number {
@@ -212,6 +250,7 @@ function putText(field: Extract<Field, { kind: 'text' }>, text: string, writer: 
 const CHARSETS: Readonly<Record<Exclude<Charset, 'any'>, { readonly has: RegExp; readonly text: string }>> = {
   hexDigits: { has: /^[0-9A-F]*$/, text: '0-9 and A-F' },
   printable: { has: /^[\x20-\x7e]*$/, text: '20H to 7EH (ASCII)' },
+  alphanumeric: { has: /^[0-9A-Za-z]*$/, text: '0-9, A-Z and a-z' },
 }
 
 function textToWrite(
@@ -282,6 +321,7 @@ function decodeMessage(shape: Shape, reader: Reader, context: Context | undefine
       } else if (field.kind === 'fixed') readFixed(field, name, reader)
       else if (field.kind === 'spare') readSpare(field.size, reader)
       else if (field.kind === 'echo') readEcho(field.of, name, reader, context)
+      else if (field.kind === 'repeat') readRepeat(field, reader, context)
       else message[name] = get(field, name, counts?.[name], message, reader, context)
     }
   } catch (error) {
@@ -330,10 +370,13 @@ function get(
       return readText(field, counted ?? countToRead(field.count, name, message, context), reader)
     case 'list':
       return readList(field.item, counted ?? countToRead(field.count, name, message, context), reader, context)
+    case 'rest':
+      return readRest(field, reader)
     case 'each':
-      return readEach(asked(context).message[field.of] as readonly Message[], (element) =>
-        get(field.item, '', undefined, element, reader, undefined),
-      )
+      return readEach(elementsAsked(field.of, context), (element) => {
+        if (field.front !== undefined) decodeMessage(field.front, reader, element)
+        return get(field.item, '', undefined, element.message, reader, undefined)
+      })
     default:
       return field satisfies never
   }
@@ -341,7 +384,8 @@ function get(
 
 function readInteger(field: IntegerField, reader: Reader): number {
   const read = reader.uint(WIDTH[field.kind])
-  const number = read === 0 && field.zeroMeans !== undefined ? field.zeroMeans : read
+  const said = field.bcd === true ? (fromBcd(read) ?? reader.fail('BAD_FIELD', 'a digit is not 0 to 9')) : read
+  const number = said === 0 && field.zeroMeans !== undefined ? field.zeroMeans : said
   const [min, max] = boundsOf(field)
   if (number < min || number > max) reader.fail('BAD_FIELD', `${number} is not within ${min} to ${max}`)
   if (!isMultiple(field, number)) reader.fail('BAD_FIELD', `${number} is no multiple of ${field.multipleOf}`)
@@ -364,6 +408,7 @@ function readCount(field: Extract<Field, { kind: 'count' }>, reader: Reader): nu
 }
 
 function readFixed(field: Extract<Field, { kind: 'fixed' }>, name: string, reader: Reader): void {
+  if (!standsIn(field, reader)) return
   const { ascii } = field
   if (reader.ascii && ascii !== undefined) {
     const characters = reader.text(ascii.length)
@@ -385,6 +430,20 @@ function readEcho(of: string, name: string, reader: Reader, context: Context | u
   const found =
     field.kind === 'count' ? readCount(field, reader) : get(field as VisibleField, of, undefined, {}, reader, undefined)
   if (!same(found, sentIn(field, of, message))) reader.fail('ECHO_MISMATCH', `${name} does not repeat the request`)
+}
+
+function readRepeat(
+  { of, item }: Extract<Field, { kind: 'repeat' }>,
+  reader: Reader,
+  context: Context | undefined,
+): void {
+  readEach(elementsAsked(of, context), (element) => decodeMessage(item, reader, element))
+}
+
+/** All that is left, but no more than may be: what follows then belongs to something else. */
+function readRest({ min, max }: RestField, reader: Reader): Buffer {
+  const left = reader.ascii ? reader.remaining >> 1 : reader.remaining
+  return reader.bytes(Math.min(Math.max(left, min), max))
 }
 
 /** What the request said, also where it said it by leaving the field out. */

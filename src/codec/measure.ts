@@ -1,7 +1,16 @@
 // How many bytes a message takes, without writing it.
-import { asked, type Context, countToRead, sizeIn } from './count'
+import { asked, type Context, countToRead, elementsAsked, sizeIn } from './count'
 import type { ValueCodec } from './cursor'
-import { type BulkField, type Count, type Field, type Message, type Shape, WIDTH } from './field'
+import {
+  type BulkField,
+  type Count,
+  type Field,
+  type IntegerField,
+  type Message,
+  type Shape,
+  standsIn,
+  WIDTH,
+} from './field'
 
 /** What is known of a message when its size is asked for. */
 export interface Measured {
@@ -33,6 +42,7 @@ function span(field: Field, name: string, known: Measured): number {
     case 'u32':
       return WIDTH[field.kind] * digits
     case 'fixed':
+      if (!standsIn(field, known)) return 0
       return known.ascii && field.ascii !== undefined ? field.ascii.length : field.width * digits
     case 'spare':
       return field.size * digits
@@ -51,15 +61,47 @@ function span(field: Field, name: string, known: Measured): number {
       return count(field.count) * (field.digits === true ? digits : 1)
     case 'list':
       return spanOfList(field.item, own, count(field.count), known)
+    case 'rest':
+      return count(name) * digits
     case 'each':
-      return (asked(known.context).message[field.of] as readonly Message[]).reduce(
-        (total, element) =>
-          total + bulkSize(field.item.kind, countToRead(field.item.count, '', element, undefined), known.ascii),
-        0,
-      )
+      return spanOfEach(field, known)
+    case 'repeat':
+      return sum(elementsAsked(field.of, known.context), (element) => measure(field.item, around(element, known)))
     default:
       return field satisfies never
   }
+}
+
+function spanOfEach({ of, item, front = {} }: Extract<Field, { kind: 'each' }>, known: Measured): number {
+  return sum(
+    elementsAsked(of, known.context),
+    (element) => measure(front, around(element, known)) + spanOfItem(item, element.message, known.ascii),
+  )
+}
+
+function spanOfItem(item: BulkField | IntegerField, element: Message, ascii: boolean): number {
+  if (!('count' in item)) return WIDTH[item.kind] * (ascii ? 2 : 1)
+  return bulkSize(item.kind, countToRead(item.count, '', element, undefined), ascii)
+}
+
+/** What is known of the part of an answer that stands for an element of the request. */
+function around(element: Context, { ascii, form }: Measured): Measured {
+  return { ascii, form, message: {}, context: element }
+}
+
+function sum<T>(parts: readonly T[], of: (part: T) => number): number {
+  return parts.reduce((total, part) => total + of(part), 0)
+}
+
+/**
+ * Whether only a message of `shape` itself says how long it is: something in it is counted by a number that stands in it and
+ * not in the request.
+ */
+export function saysItsLength(shape: Shape, request: Shape): boolean {
+  return Object.values(shape).some((field) => {
+    if (!('count' in field) || typeof field.count !== 'string' || field.count in request) return false
+    return shape[field.count] !== undefined
+  })
 }
 
 function spanOfEcho(of: string, known: Measured): number {

@@ -1,7 +1,20 @@
 // What a field of a message takes, in words: for documentation, editors and refusals. Read from the declaration.
-import { type CountField, type Field, type IntegerField, isVisible, type Shape, type TextField, WIDTH } from './field'
+import {
+  boundsOf,
+  type CountField,
+  type Field,
+  type IntegerField,
+  isVisible,
+  type Shape,
+  type TextField,
+} from './field'
 
-const CHARSETS = { any: '', printable: ' of the characters 20H to 7EH', hexDigits: ' of the characters 0-9 and A-F' }
+const CHARSETS = {
+  any: '',
+  printable: ' of the characters 20H to 7EH',
+  hexDigits: ' of the characters 0-9 and A-F',
+  alphanumeric: ' of the characters 0-9, A-Z and a-z',
+}
 
 /**
  * What stands in a message for the field `name` of `shape`; `undefined` for what is filled in by itself.
@@ -28,6 +41,8 @@ function words(field: Field, derived: CountField | undefined): string {
       return `bytes as hexadecimal digits, or an array of numbers from 0 to 255${howMany(field.count, derived)}`
     case 'text':
       return textWords(field, derived)
+    case 'rest':
+      return `bytes as hexadecimal digits, or an array of numbers from 0 to 255, ${field.min} to ${field.max} elements`
     case 'list':
       return `an array of objects with ${namesOf(field.item)}${howMany(field.count, derived)}`
     case 'each':
@@ -40,7 +55,9 @@ function words(field: Field, derived: CountField | undefined): string {
   }
 }
 
-function wholeNumber({ kind, min = 0, max = lastOf(WIDTH[kind]), oneOf, multipleOf }: IntegerField): string {
+function wholeNumber(field: IntegerField): string {
+  const { oneOf, multipleOf } = field
+  const [min, max] = boundsOf(field)
   if (oneOf !== undefined) return `one of ${oneOf.join(', ')}`
   const multiple = multipleOf === undefined ? '' : `, a multiple of ${multipleOf}`
   return `a whole number from ${min} to ${max}${multiple}`

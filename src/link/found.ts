@@ -38,5 +38,6 @@ export function findFrame(framing: AnswerFraming, bytes: Buffer, known: Known): 
 /** Whether the datagram holds what was found and nothing behind it but what may follow. */
 export function endsWith(found: Found, datagram: Buffer): boolean {
   const rest = datagram.subarray(found.used)
-  return rest.length === 0 || (found.kind === 'answer' && found.answer.mayFollow?.equals(rest) === true)
+  if (rest.length === 0 || found.kind !== 'answer') return rest.length === 0
+  return found.answer.surplus === true || found.answer.mayFollow?.equals(rest) === true
 }

@@ -39,6 +39,8 @@ export interface Scanned<Frame> {
   readonly mayFollow?: Buffer
   /** More bytes behind it would show that it is another frame, damaged: it counts once the line is silent, where lines have noise. */
   readonly endsWithSilence?: true
+  /** Whatever stands behind it in the same datagram means nothing; over a stream it is somebody's. */
+  readonly surplus?: true
 }
 
 /**

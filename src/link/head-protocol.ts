@@ -15,6 +15,7 @@ import {
   type Reader,
   readerOf,
   type Shape,
+  saysItsLength,
   writerOf,
 } from '../codec/codec'
 import { type EndCodeError, ProtocolError } from '../errors'
@@ -90,10 +91,12 @@ export class HeadProtocol<H extends Head> {
       message,
       body,
       answered: this.#parts.isAnswered?.(command) ?? command.answered !== 'no',
-      responseLength: (head: Head) => {
+      responseLength: (head: Head, soFar: Buffer) => {
         this.#checkCommand(command, head)
-        const length = measure(command.response, { ascii: code === 'ascii', form, context })
-        return length + this.#dummies(command, context.message, 'response')
+        const length = saysItsLength(command.response, command.request)
+          ? this.#arrived(command, context, soFar)
+          : measure(command.response, { ascii: code === 'ascii', form, context })
+        return length === undefined ? undefined : length + this.#dummies(command, context.message, 'response')
       },
       decode: (frame: ResponseFrame) => this.#decode(command, context, frame),
     }
@@ -109,6 +112,15 @@ export class HeadProtocol<H extends Head> {
     const inFront = front === undefined ? 0 : measure(front.shape, known)
     const request = measure(command.request, { ...known, message })
     return inFront + request + measure(command.response, { ...known, context }) + dummies
+  }
+
+  /** Length of an answer that says it itself: known when all of it has arrived. */
+  #arrived(command: NamedCommand, context: Context, soFar: Buffer): number | undefined {
+    const reader = readerOf(this.#parts.code, soFar, this.#parts.form)
+    return unlessCut(() => {
+      decode(command.response, reader, context)
+      return reader.position
+    })
   }
 
   /** Without a length, an answer to another command would be waited for until it is as long as the right one. */
@@ -149,14 +161,11 @@ export class HeadProtocol<H extends Head> {
   /** Length of a request's body, for the responder: the declaration tells where it ends. */
   requestLength(head: Head, soFar: Buffer): number | undefined {
     const reader = readerOf(this.#parts.code, soFar, this.#parts.form)
-    try {
+    return unlessCut(() => {
       const command = this.#commandOf(head, reader)
       const message = decode(command.request, reader)
       return reader.position + this.#dummies(command, message, 'request')
-    } catch (error) {
-      if (error instanceof ProtocolError && error.code === 'TRUNCATED') return undefined
-      throw error
-    }
+    })
   }
 
   /** The PLC's side: which command with which message a frame is. */
@@ -182,6 +191,16 @@ export class HeadProtocol<H extends Head> {
     const command = Object.values(commands).find((entry) => entry.code === code)
     if (command === undefined) throw new ProtocolError('BAD_FIELD', `There is no ${commandText(code)}.`)
     return command
+  }
+}
+
+/** What `read` gives, `undefined` while bytes are missing. */
+function unlessCut<T>(read: () => T): T | undefined {
+  try {
+    return read()
+  } catch (error) {
+    if (error instanceof ProtocolError && error.code === 'TRUNCATED') return undefined
+    throw error
   }
 }
 

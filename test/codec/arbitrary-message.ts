@@ -2,7 +2,7 @@
 import fc from 'fast-check'
 import type { Context, Message, Shape } from '../../src/codec/codec'
 import { isVisible, type VisibleField } from '../../src/codec/field'
-import { jwAddress } from '../../src/jw/address'
+import { jwAddress, jwExtendedAddress } from '../../src/jw/address'
 import { aCompatibleDevice } from '../../src/melsec/a-compatible/device'
 import { deviceAddress } from '../../src/melsec/device/codec'
 import { setReset } from '../../src/melsec/device/set-reset'
@@ -27,6 +27,12 @@ const area = fc.record({ unit: fc.constantFrom(0, 1), length: fc.nat(40) }).chai
   })
 })
 
+const extendedAddress = fc.record({
+  file: fc.integer({ min: 0, max: 1 }),
+  address: number,
+  extended: fc.constant(true),
+})
+
 /** Values of the value codecs, which any form can say. */
 const VALUES: ReadonlyMap<object, fc.Arbitrary<unknown>> = new Map<object, fc.Arbitrary<unknown>>([
   [deviceAddress, device(['D', 'M', 'X', 'Y', 'W', 'ZR', 'TN', 'SB'])],
@@ -40,13 +46,8 @@ const VALUES: ReadonlyMap<object, fc.Arbitrary<unknown>> = new Map<object, fc.Ar
   [labelData, fc.array(fc.nat(0xffff), { maxLength: 9 })],
   [labelArea, area],
   [writtenLabelArea, area],
-  [
-    jwAddress,
-    fc.oneof(
-      fc.record({ file: fc.integer({ min: 0, max: 0x80 }), address: number }),
-      fc.record({ file: fc.integer({ min: 0, max: 1 }), address: number, extended: fc.constant(true) }),
-    ),
-  ],
+  [jwAddress, fc.oneof(fc.record({ file: fc.integer({ min: 0, max: 0x80 }), address: number }), extendedAddress)],
+  [jwExtendedAddress, extendedAddress],
 ])
 
 const ELEMENT = {
@@ -55,7 +56,7 @@ const ELEMENT = {
   bits: fc.boolean(),
   bytes: fc.integer({ min: 0, max: 0xff }),
 } satisfies Record<string, fc.Arbitrary<unknown>>
-const CHARACTERS = { any: 'Az09 -é', printable: 'Az09 -~', hexDigits: '0123456789ABCDEF' }
+const CHARACTERS = { any: 'Az09 -é', printable: 'Az09 -~', hexDigits: '0123456789ABCDEF', alphanumeric: 'AZaz09' }
 const MOST = 20
 
 /** A message of `shape`; a response's with the request it answers. */
@@ -84,7 +85,7 @@ function valueFor(
       const { min = 0, max = MOST, oneOf, multipleOf = 1 } = field
       return generate(() =>
         oneOf === undefined
-          ? fc.integer({ min, max: Math.min(max, MOST) }).map((made) => made - (made % multipleOf))
+          ? fc.integer({ min, max: Math.max(min, Math.min(max, MOST)) }).map((made) => made - (made % multipleOf))
           : fc.constantFrom(...oneOf),
       )
     }
@@ -103,6 +104,17 @@ function valueFor(
       const characters = CHARACTERS[field.charset ?? 'any']
       return array(fc.constantFrom(...characters), size(), generate).join('')
     }
+    case 'rest':
+      return Buffer.from(
+        array(
+          ELEMENT.bytes,
+          Math.max(
+            field.min,
+            generate(() => fc.nat(MOST)),
+          ),
+          generate,
+        ),
+      )
     case 'list':
       return Array.from({ length: size() }, () => messageOf(field.item, generate, context))
     case 'each': {

@@ -9,13 +9,13 @@ import {
   type Shape,
 } from '../../src/codec/codec'
 import type { JwAddress } from '../../src/jw/address'
-import { type JwCommands, jwCommands } from '../../src/jw/commands'
+import { type JwCommands, jwCommands } from '../../src/jw/commands/commands'
 import { type ACompatibleCommands, aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { type Commands, commands } from '../../src/melsec/commands/commands'
 import type { DeviceAddress } from '../../src/melsec/device/device'
 import { declarationCases } from '../support/declarations'
 
-const { bits, bytes, countOf, each, echo, fixed, list, text, u16, u32, u8, value, words } = field
+const { bits, bytes, countOf, each, echo, fixed, list, repeat, rest, text, u16, u32, u8, value, words } = field
 
 const plain = { title: 'Made up', code: 1, effect: 'read', manual: 'none' } as const
 const declaring = (request: Shape, response: Shape = {}) => declare({ madeUp: { ...plain, request, response } })
@@ -64,6 +64,22 @@ describe('declare', () => {
       { b: each('a', words('size')) },
       'b is counted by size, which an element of a lacks',
     ],
+    ['the rest before the end', { a: rest({ min: 1, max: 2 }), b: u8() }, {}, 'a takes the rest, and is not the last'],
+    ['the rest of an impossible range', { a: rest({ min: 2, max: 1 }) }, {}, 'a has the range 2 to 1'],
+    ['a repeat of no list', { a: words(2) }, { b: repeat('a', {}) }, 'b goes over a, which is no list of the request'],
+    [
+      'a repeat of what the elements lack',
+      { n: countOf('a', 1), a: list('n', { points: u16() }) },
+      { b: repeat('a', { size: echo('size') }) },
+      'b has size, which repeats size, which the request lacks',
+    ],
+    [
+      'a repeat with a field of its own',
+      { n: countOf('a', 1), a: list('n', { points: u16() }) },
+      { b: each('a', u8(), { points: u16() }) },
+      'b repeats an element of a, and points is its own',
+    ],
+    ['more than decimal digits can say', { a: u8({ bcd: true, max: 100 }) }, {}, 'a goes up to 100, which its digits'],
     ['a range upside down', { a: u8({ min: 3, max: 2 }) }, {}, 'a has the range 3 to 2'],
     ['a range wider than the field', { a: u8({ max: 256 }) }, {}, 'a goes up to 256, which its width cannot hold'],
     ['a count wider than its field', { n: countOf('a', 1, { max: 999 }), a: words('n') }, {}, 'n goes up to 999'],

@@ -1,8 +1,8 @@
 /** Messages of any declaration, made from its shapes: what the property tests run over. */
 import fc from 'fast-check'
 import type { Context, Field, Message, Shape } from '../../src/codec/codec'
-import { isVisible, type VisibleField } from '../../src/codec/field'
-import { jwAddress } from '../../src/jw/address'
+import { boundsOf, isVisible, type VisibleField } from '../../src/codec/field'
+import { jwAddress, jwExtendedAddress } from '../../src/jw/address'
 import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible/device'
 import { deviceAddress, FORM_EXTENDED, FORM_XY_OCTAL, formProblem } from '../../src/melsec/device/codec'
 import { devices } from '../../src/melsec/device/device'
@@ -52,6 +52,11 @@ const area = fc.record({ unit: fc.constantFrom(0, 1), length: fc.nat(40) }).chai
 
 type Values = (wanted: Wanted) => fc.Arbitrary<unknown>
 
+const extendedAddress = fc.oneof(
+  fc.record({ file: fc.constant(0), address: fc.nat(0xffff), extended: fc.constant(true) }),
+  fc.record({ file: fc.constant(1), address: fc.nat(0x7fffff), extended: fc.constant(true) }),
+)
+
 const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
   [
     deviceAddress,
@@ -79,18 +84,16 @@ const VALUES: ReadonlyMap<object, Values> = new Map<object, Values>([
   [labelData, () => fc.array(fc.nat(0xffff), { maxLength: 9 })],
   [labelArea, () => area],
   [writtenLabelArea, () => area],
-  [
-    jwAddress,
-    () =>
-      fc.oneof(
-        fc.record({ file: fc.nat(0x80), address: fc.nat(0xffff) }),
-        fc.record({ file: fc.constant(0), address: fc.nat(0xffff), extended: fc.constant(true) }),
-        fc.record({ file: fc.constant(1), address: fc.nat(0x7fffff), extended: fc.constant(true) }),
-      ),
-  ],
+  [jwAddress, () => fc.oneof(fc.record({ file: fc.nat(0x80), address: fc.nat(0xffff) }), extendedAddress)],
+  [jwExtendedAddress, () => extendedAddress],
 ])
 
-const CHARACTERS = { any: 'Az09 -\u00e9\u00ff\u0000', printable: 'Az09 -~', hexDigits: '0123456789ABCDEF' }
+const CHARACTERS = {
+  any: 'Az09 -\u00e9\u00ff\u0000',
+  printable: 'Az09 -~',
+  hexDigits: '0123456789ABCDEF',
+  alphanumeric: 'AZaz09',
+}
 
 const ELEMENTS = {
   words: fc.nat(0xffff),
@@ -98,7 +101,6 @@ const ELEMENTS = {
   bits: fc.boolean(),
   bytes: fc.nat(0xff),
 } as const
-const LAST = { u8: 0xff, u16: 0xffff, u32: 0xffffffff } as const
 
 /** Elements of a bulk field or list: mostly few, now and then as many as the field takes or a request may carry. */
 function sizes(min: number, max: number): fc.Arbitrary<number> {
@@ -163,6 +165,13 @@ class Maker {
         const characters = CHARACTERS[field.charset ?? 'any']
         return this.elements(fc.constantFrom(...characters), this.size(name, field.count, shape, message)).join('')
       }
+      case 'rest':
+        return Buffer.from(
+          this.elements(
+            ELEMENTS.bytes,
+            this.generate(() => sizes(field.min, field.max)),
+          ),
+        )
       case 'list':
         return repeated(this.size(name, field.count, shape, message), () => this.message(field.item))
       case 'each': {
@@ -175,7 +184,8 @@ class Maker {
   }
 
   private integer(name: string, field: Extract<Field, { kind: 'u8' | 'u16' | 'u32' }>): number {
-    const { min = 0, max = LAST[field.kind], oneOf, multipleOf } = field
+    const { oneOf, multipleOf } = field
+    const [min, max] = boundsOf(field)
     if (oneOf !== undefined) return this.generate(() => fc.constantFrom(...oneOf))
     // A number of points is also how much a response holds: it stays within what one request may carry.
     if (name === 'points' || name === 'length') return this.generate(() => sizes(min, max))

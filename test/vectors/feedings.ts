@@ -32,6 +32,8 @@ export interface FrameCase<H extends Head> {
   readonly endCode?: number
   /** What some PLCs send behind it. */
   readonly mayFollow?: Buffer
+  /** What else stands in its datagram means nothing. */
+  readonly surplus?: true
   readonly bodyLength: BodyLength
   /** Where the serial number stands: an answer gets the one the session asked with. */
   readonly serialAt?: { readonly start: number; readonly end: number }
@@ -101,8 +103,9 @@ export function testFeedings<H extends Head>(id: string, side: Side, make: () =>
 
   test(`${id}: scanned whole, and out of two in one chunk`, () => {
     const given = make()
-    const { mayFollow } = given
-    const scanned = { used: given.bytes.length, frame: frameOf(given), ...(mayFollow && { mayFollow }) }
+    const { mayFollow, surplus } = given
+    const more = { ...(mayFollow && { mayFollow }), ...(surplus && { surplus }) }
+    const scanned = { used: given.bytes.length, frame: frameOf(given), ...more }
     expect(scan(given, given.bytes)).toMatchObject(scanned)
     expect(scan(given, Buffer.concat([given.bytes, given.bytes]))).toMatchObject(scanned)
   })

@@ -371,7 +371,9 @@ export class MelsecPlcClient implements MelsecClient {
 
   #permit(effect: Exchange<unknown>['effect'], title: string): void {
     if (effect === 'write' && !this.#settings.allowWrites) throw notPermitted(title, 'allowWrites')
-    if (effect === 'control' && !this.#settings.allowControl) throw notPermitted(title, 'allowControl')
+    // No MELSEC command configures, but a declaration of one's own may.
+    const isControl = effect === 'control' || effect === 'configure'
+    if (isControl && !this.#settings.allowControl) throw notPermitted(title, 'allowControl')
   }
 
   identify(options?: CallOptions): Promise<Identity> {
