@@ -46,6 +46,22 @@ export const jwAddress: ValueCodec<JwAddress> = {
   size: (ascii, _form, value) => (value?.extended === true ? 6 : 3) * (ascii ? 2 : 1),
 }
 
+/** The extended form where nothing else may stand, without its marker FF: SEG ADRLL ADRLH ADRHL ADRHH. */
+export const jwExtendedAddress: ValueCodec<JwExtendedAddress> = {
+  name: 'extendedAddress',
+  takes: 'an object with file (0 or 1), address (of a byte) and extended: true',
+  example: { file: 0, address: 0o4000, extended: true },
+  write(writer, value) {
+    if (value.extended !== true) {
+      throw new RequestError('BAD_MESSAGE', 'only the extended form fits here: extended must be true')
+    }
+    check(value)
+    writeExtended(writer, value)
+  },
+  read: readExtended,
+  size: (ascii) => (ascii ? 10 : 5),
+}
+
 function writeExtended(writer: Writer, { file, address }: JwAddress): void {
   writer.uint(file, 1)
   writer.uint(address, 4)
@@ -72,7 +88,7 @@ function check(value: JwAddress): void {
 }
 
 /** Last byte address of the file, `undefined` when there is no such file. */
-function lastAddress({ file, extended }: Pick<JwAddress, 'file' | 'extended'>): number | undefined {
+export function lastAddress({ file, extended }: Pick<JwAddress, 'file' | 'extended'>): number | undefined {
   if (extended === true) return LAST.extended[file]
   return Number.isInteger(file) && file >= 0 && file <= LAST.basicFile ? LAST.basic : undefined
 }

@@ -1,7 +1,7 @@
 // A Sharp JW message in words, field by field.
 
 import { hex } from '../basics/hex'
-import { field, type Message, type Shape } from '../codec/codec'
+import { field, hasSecret, type Message, type Shape } from '../codec/codec'
 import {
   type AnnotatedRow,
   annotate,
@@ -14,8 +14,11 @@ import {
   showBytes,
 } from '../codec/explanation'
 import type { NamedCommand } from '../link/link'
-import { type JwAddress, jwAddress } from './address'
-import { jwCommands } from './commands'
+import type { JwAddress } from './address'
+import { jwCommands } from './commands/commands'
+import { markerForms } from './commands/data-memory'
+import { HEADER_LENGTH, ID, relayIn } from './header'
+import { explainResultCode } from './result-codes/explain'
 
 /** What is known of a JW message. */
 export interface ExplainJwOptions {
@@ -23,14 +26,11 @@ export interface ExplainJwOptions {
   readonly direction?: Direction
   /** The frame of the request that this response answers: tells where the answer ends. */
   readonly request?: Buffer
+  /** Where FFH stands in lists of relays and registers. Default `once`. */
+  readonly marker?: keyof typeof markerForms
 }
 
 const { bytes: bytesOf, fixed, u8 } = field
-
-/** First byte of a message (JW300 option unit manual, "Message form"); a test holds it against the framing. */
-const ID = { request: 0x47, response: 0x45 } as const
-/** In front of a message with a header stand 40 bytes of which the first is 00. */
-const HEADER = 40
 
 const requestHead = { id: fixed(ID.request, 1), attr: fixed(0, 1), command: u8() } as const satisfies Shape
 const responseHead = {
@@ -45,62 +45,98 @@ const responseHead = {
  * @example formatExplanation(explainJwFrame(Buffer.from('4700240000080400', 'hex')))
  */
 export function explainJwFrame(bytes: Buffer, options: ExplainJwOptions = {}): FrameExplanation {
-  const header = bytes[0] === 0 ? HEADER : 0
+  const header = bytes[0] === 0 ? HEADER_LENGTH : 0
   const id = bytes[header]
   if (id === undefined) return notAFrame(bytes, 'the message is missing')
   const direction = options.direction ?? (id === ID.response ? 'response' : 'request')
   const explainer = new Explainer(bytes, 'binary')
-  if (header > 0) explainer.read({ header: bytesOf(HEADER) }, () => 'header of 40 bytes')
+  if (header > 0) explainer.read({ header: bytesOf(header) }, () => headerText(bytes.subarray(0, header)))
   return direction === 'request'
-    ? explainRequest(explainer, bytes.length)
+    ? explainRequest(explainer, options, bytes.length)
     : explainResponse(explainer, options, bytes.length)
+}
+
+function headerText(header: Buffer): string {
+  const relay = relayIn(header)
+  if (relay === undefined) return `header of ${header.length} bytes`
+  const { pda, psa, slot, station } = relay
+  return `header of ${header.length} bytes: relay to station ${station} by the unit in slot ${slot}, PDA ${pda}, PSA ${psa}`
+}
+
+/** How its lists are read. */
+function formOf({ marker = 'once' }: ExplainJwOptions): { readonly form: number } {
+  return { form: markerForms[marker] }
 }
 
 function commandOf(code: unknown): NamedCommand | undefined {
   return Object.values<NamedCommand>(jwCommands).find((command) => command.code === code)
 }
 
-function describeJw({ name, field: of, value }: Leaf): string | undefined {
-  const number = Number(value)
-  if (of.kind === 'value' && of.codec === jwAddress) return addressText(value as JwAddress)
+function describeJw({ name: path, field: of, value }: Leaf): string | undefined {
+  const text = wordsOf(path.slice(path.lastIndexOf('.') + 1), value)
+  return of.kind === 'echo' ? `${text ?? plainText(value)} (repeats the request)` : text
+}
+
+function wordsOf(name: string, value: unknown): string | undefined {
+  if (isAddress(value)) return addressText(value)
+  if (typeof value !== 'number') return undefined
   switch (name) {
     case 'id':
-      return number === ID.request ? 'request' : 'response'
+      return value === ID.request ? 'request' : 'response'
     case 'command':
-      return `${hex(number, 2)}H (${commandOf(number)?.title ?? 'no command that is known here'})`
+      return `${hex(value, 2)}H (${commandOf(value)?.title ?? 'no command that is known here'})`
     case 'result':
-      return `${hex(number, 2)}H (${number === 0 ? 'carried out' : 'refused'})`
+      return resultText(value)
+    case 'file':
+    case 'informationFile':
+      return `file ${hex(value, 2)}H`
+    case 'segment':
+      return `${hex(value, 2)}H`
+    case 'address':
+    case 'informationAddress':
+      return octalText(value)
+    case 'number':
+      return `${value.toString(8).padStart(4, '0')} octal`
     default:
-      return of.kind === 'echo'
-        ? `${isAddress(value) ? addressText(value) : plainText(value)} (repeats the request)`
-        : undefined
+      return undefined
   }
+}
+
+function resultText(code: number): string {
+  if (code === 0) return '00H (carried out)'
+  const meaning = explainResultCode(code)?.meaning ?? 'no text is known for this code'
+  return `${hex(code, 2)}H (refused: ${meaning.replace(/\.$/, '')})`
 }
 
 function isAddress(value: unknown): value is JwAddress {
   return typeof value === 'object' && value !== null && 'file' in value
 }
 
-/** As a JW numbers them: files in hexadecimal, the bytes of a file in octal. */
-function addressText({ file, address, extended }: JwAddress): string {
-  return `file ${hex(file, 2)}H, byte ${address.toString(8).padStart(6, '0')} octal${extended === true ? ' (extended)' : ''}`
+function octalText(address: number): string {
+  return `${address.toString(8).padStart(6, '0')} octal`
 }
 
-function explainRequest(explainer: Explainer, total: number): FrameExplanation {
+/** As a JW numbers them: files in hexadecimal, the bytes of a file in octal. */
+function addressText({ file, address, extended }: JwAddress): string {
+  return `file ${hex(file, 2)}H, byte ${octalText(address)}${extended === true ? ' (extended)' : ''}`
+}
+
+function explainRequest(explainer: Explainer, options: ExplainJwOptions, total: number): FrameExplanation {
   const head = explainer.read(requestHead, describeJw)
   const command = commandOf(head.command)
   const about = { frame: 'JW', code: 'binary', direction: 'request' } as const
   if (command === undefined) return unknown(explainer, { ...about, title: 'JW request' }, total)
-  explainer.read(command.request, describeJw, {}, splitBytes)
-  return end(explainer, { ...about, title: `JW request: ${command.title}`, command: command.name }, total)
+  explainer.read(command.request, describeJw, formOf(options), splitBytes)
+  const secret = hasSecret(command.request)
+  return end(explainer, { ...about, title: `JW request: ${command.title}`, command: command.name }, total, secret)
 }
 
 type About = Parameters<Explainer['end']>[0]
 
 /** A message has no length, so what stands behind it may be the next one. */
-function end(explainer: Explainer, about: About, total: number): FrameExplanation {
+function end(explainer: Explainer, about: About, total: number, secret = false): FrameExplanation {
   if (explainer.fault === undefined) explainer.limit(explainer.position)
-  return explainer.end(about, total)
+  return explainer.end(about, total, secret)
 }
 
 function unknown(explainer: Explainer, about: About, total: number): FrameExplanation {
@@ -110,7 +146,7 @@ function unknown(explainer: Explainer, about: About, total: number): FrameExplan
 }
 
 function explainResponse(explainer: Explainer, options: ExplainJwOptions, total: number): FrameExplanation {
-  const asked = options.request === undefined ? undefined : requestIn(options.request)
+  const asked = options.request === undefined ? undefined : requestIn(options.request, options)
   if (options.request !== undefined && asked === undefined) {
     explainer.notes.push('The frame given as request is no request that can be read.')
   }
@@ -139,18 +175,24 @@ function explainResponse(explainer: Explainer, options: ExplainJwOptions, total:
   explainer.read(
     asked.command.response,
     describeJw,
-    { context: { shape: asked.command.request, message: asked.message } },
+    { ...formOf(options), context: { shape: asked.command.request, message: asked.message } },
     splitBytes,
   )
   return end(explainer, { ...about, title, command: asked.command.name }, total)
 }
 
-function requestIn(frame: Buffer): { readonly command: NamedCommand; readonly message: Message } | undefined {
-  const bytes = frame.subarray(frame[0] === 0 ? HEADER : 0)
+function requestIn(
+  frame: Buffer,
+  options: ExplainJwOptions,
+): { readonly command: NamedCommand; readonly message: Message } | undefined {
+  const bytes = frame.subarray(frame[0] === 0 ? HEADER_LENGTH : 0)
   const head = annotate(requestHead, bytes, { code: 'binary' })
   const command = commandOf(head.message.command)
   if (head.fault !== undefined || command === undefined) return undefined
-  const { message, fault } = annotate(command.request, bytes.subarray(head.used), { code: 'binary' })
+  const { message, fault } = annotate(command.request, bytes.subarray(head.used), {
+    code: 'binary',
+    ...formOf(options),
+  })
   return fault === undefined ? { command, message } : undefined
 }
 
@@ -158,7 +200,7 @@ const TOGETHER = 16
 
 /** Long data in rows of 16 bytes. */
 function splitBytes(row: AnnotatedRow, bytes: Buffer): readonly AnnotatedRow[] {
-  if (row.kind !== 'bytes' || bytes.length <= TOGETHER) return [row]
+  if (!['bytes', 'rest'].includes(row.kind) || bytes.length <= TOGETHER) return [row]
   const rows: AnnotatedRow[] = []
   for (let from = 0; from < bytes.length; from += TOGETHER) {
     const piece = Buffer.from(bytes.subarray(from, from + TOGETHER))

@@ -1,5 +1,6 @@
 // The public names of this room.
 
+export type { EndCodeExplanation } from './end-code-explanation'
 export {
   type Codes,
   type EndCodeFacts,

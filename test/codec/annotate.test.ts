@@ -14,7 +14,7 @@ import {
   writerOf,
 } from '../../src/codec/codec'
 import { ProtocolError } from '../../src/errors'
-import { jwCommands } from '../../src/jw/commands'
+import { jwCommands } from '../../src/jw/commands/commands'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { commands } from '../../src/melsec/commands/commands'
 import { FORM_EXTENDED, FORM_LONG, FORM_XY_OCTAL } from '../../src/melsec/device/codec'
@@ -30,7 +30,7 @@ const families: readonly {
   { list: commands, codes: ['binary', 'ascii'], forms: [0, FORM_LONG, FORM_EXTENDED, FORM_EXTENDED | FORM_LONG] },
   { list: aCompatibleCommands, codes: ['binary', 'ascii'], forms: [0] },
   { list: oneCCommands, codes: ['ascii'], forms: [0, FORM_XY_OCTAL] },
-  { list: jwCommands, codes: ['binary'], forms: [0] },
+  { list: jwCommands, codes: ['binary'], forms: [0, 1] },
 ]
 const cases = families.flatMap(({ list, codes, forms }) =>
   Object.entries(list).flatMap(([name, declaration]) => {
@@ -79,7 +79,7 @@ function uncovered(rows: readonly AnnotatedRow[], length: number, base = 0): str
 }
 
 /** Fields that the message does not show. */
-const INVISIBLE = ['fixed', 'spare', 'count', 'echo']
+const INVISIBLE = ['fixed', 'spare', 'count', 'echo', 'repeat']
 
 function withoutMultiples(shape: Shape): Shape {
   const entries = Object.entries(shape).map(([name, field]): [string, Shape[string]] => [

@@ -11,7 +11,7 @@ import {
   writerOf,
 } from '../../src/codec/codec'
 import { ProtocolError, RequestError } from '../../src/errors'
-import { jwCommands } from '../../src/jw/commands'
+import { jwCommands } from '../../src/jw/commands/commands'
 import { commands } from '../../src/melsec/commands/commands'
 
 const { bits, bytes, countOf, doubleWords, each, echo, fieldAt, fixed, list, text, u16, u32, u8, words } = field

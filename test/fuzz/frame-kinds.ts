@@ -2,9 +2,9 @@
 
 import type { DataCode } from '../../src/codec/codec'
 import { RequestError } from '../../src/errors'
-import { jwCommands } from '../../src/jw/commands'
+import { jwCommands } from '../../src/jw/commands/commands'
 import { type ExplainJwOptions, explainJwFrame } from '../../src/jw/explain-frame'
-import { jwProtocol } from '../../src/jw/protocol'
+import { type JwProtocolOptions, jwProtocol } from '../../src/jw/protocol'
 import type { Framing, Head, HeadProtocol, RequestFrame } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { aCompatibleProtocol } from '../../src/melsec/a-compatible/protocol'
@@ -126,13 +126,14 @@ function oneC(format: 1 | 4, sumCheck: boolean): FrameKind {
   })
 }
 
-function jw(header: 'none' | 'zero40'): FrameKind {
-  return kind(`JW, header ${header}`, () => {
+function jw(name: string, options: JwProtocolOptions): FrameKind {
+  return kind(`JW, ${name}`, () => {
+    const { marker = 'once' } = options
     const explain = (bytes: Buffer, request: Buffer | undefined) => {
-      const options: ExplainJwOptions = request === undefined ? {} : { request }
-      return explainJwFrame(bytes, options)
+      const known: ExplainJwOptions = request === undefined ? { marker } : { marker, request }
+      return explainJwFrame(bytes, known)
     }
-    return headed(jwProtocol({ header }), jwCommands, 'binary', { explain })
+    return headed(jwProtocol(options), jwCommands, 'binary', { explain })
   })
 }
 
@@ -181,6 +182,7 @@ export const frameKinds: readonly FrameKind[] = [
   serial({ frame: '4C', format: 5 }),
   serial({ frame: '4C', format: 5, sumCheck: false }),
   ...([1, 4] as const).flatMap((format) => [oneC(format, true), oneC(format, false)]),
-  jw('none'),
-  jw('zero40'),
+  jw('no header', {}),
+  jw('40 bytes 00', { header: 'zero40', marker: 'each' }),
+  jw('relay, JW30H', { header: { pda: 1, psa: 2, slot: 3, station: 4 }, model: 'jw30h' }),
 ]

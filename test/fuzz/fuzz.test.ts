@@ -3,7 +3,8 @@
  * seed; here there are few and always the same, so that the tests stay quick and never fail by chance.
  */
 import { describe, expect, test } from '@jest/globals'
-import { jwCommands } from '../../src/jw/commands'
+import type { JwDeclaration, JwModel } from '../../src/jw/commands/command'
+import { jwCommands } from '../../src/jw/commands/commands'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import { commands } from '../../src/melsec/commands/commands'
 import { oneCCommands } from '../../src/melsec/one-c/commands'
@@ -34,11 +35,21 @@ describe.each(frameKinds)('$name', (kind) => {
 
 /** Every command of the set, so that none is left out because no message of it could be made. */
 function namesOf(kind: string): string[] {
+  if (kind.startsWith('JW')) return jwNames(kind.includes('JW30H') ? 'jw30h' : 'jw300')
   return Object.keys(SETS[kind.slice(0, 2)] ?? commands).sort()
 }
 
+/** Each model has some that the other lacks. */
+function jwNames(model: JwModel): string[] {
+  const all: readonly (JwDeclaration & { readonly name: string })[] = Object.values(jwCommands)
+  return all
+    .filter(({ models }) => models?.includes(model) !== false)
+    .map(({ name }) => name)
+    .sort()
+}
+
 /** By what the name of the kind begins with, where it is not the SLMP set. */
-const SETS: Readonly<Record<string, object>> = { '1E': aCompatibleCommands, '1C': oneCCommands, JW: jwCommands }
+const SETS: Readonly<Record<string, object>> = { '1E': aCompatibleCommands, '1C': oneCCommands }
 
 function report({ kind, grown, requests, answers }: FuzzResult): string {
   const of = (

@@ -26,7 +26,7 @@ function caseOf(vector: FrameVector): FrameCase<ComputerLinkHead> {
   }
 }
 
-const vectors = vectorsOfKind('jw-later', 'frame').filter((vector) => vector.frame === 'JWserial')
+const vectors = vectorsOfKind('jw-serial', 'frame')
 
 describe('printed frames', () => {
   test('are there', () => {

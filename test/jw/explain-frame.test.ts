@@ -1,15 +1,15 @@
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { type FrameExplanation, formatExplanation } from '../../src/codec/explanation'
-import { jwCommands } from '../../src/jw/commands'
-import { explainJwFrame } from '../../src/jw/explain-frame'
-import { jwFrame } from '../../src/jw/frame'
+import { jwCommands } from '../../src/jw/commands/commands'
+import { type ExplainJwOptions, explainJwFrame } from '../../src/jw/explain-frame'
 import { jwProtocol } from '../../src/jw/protocol'
 import type { NamedCommand } from '../../src/link/link'
 import { bytesOf, type FrameVector, type Message, vectorsOfKind } from '../vectors/vectors'
 
-const vectors = vectorsOfKind('jw', 'frame')
-const protocol = jwProtocol()
+const vectors = [...vectorsOfKind('jw-printed', 'frame'), ...vectorsOfKind('jw', 'frame')].filter(
+  ({ command }) => command in jwCommands,
+)
 
 function uncovered({ rows, rest }: FrameExplanation, bytes: Buffer): string | undefined {
   let next = 0
@@ -21,19 +21,20 @@ function uncovered({ rows, rest }: FrameExplanation, bytes: Buffer): string | un
 }
 
 /** The frame of the request of an answer. */
-function requestOf({ command: name, request, header }: FrameVector): Buffer {
+function requestOf({ command: name, request, header, marker }: FrameVector): Buffer {
   if (request === undefined) throw new Error('the vector has no request')
   const command: NamedCommand = jwCommands[name as keyof typeof jwCommands]
-  const exchange = protocol.exchange(command, withBytes(request))
-  const framing = jwFrame(header === undefined ? {} : { header: 'zero40' })
-  return framing.request.write({ command: command.code }, 0, exchange.body)
+  const model = name === 'setMemorySize' ? 'jw30h' : 'jw300'
+  return jwProtocol({ header: header === undefined ? 'none' : 'zero40', marker: marker ?? 'once', model })
+    .exchange(command, withBytes(request))
+    .write(0)
 }
 
 const withBytes = (message: Message): Readonly<Record<string, unknown>> =>
   Array.isArray(message.data) ? { ...message, data: Buffer.from(message.data as number[]) } : message
 
-function explained(bytes: Buffer, request?: Buffer): FrameExplanation {
-  const explanation = explainJwFrame(bytes, request === undefined ? {} : { request })
+function explained(bytes: Buffer, options: ExplainJwOptions): FrameExplanation {
+  const explanation = explainJwFrame(bytes, options)
   expect(explanation.fault).toBeUndefined()
   expect(explanation.rest).toBe(0)
   expect(uncovered(explanation, bytes)).toBeUndefined()
@@ -53,7 +54,7 @@ test('a file number is hexadecimal, its byte address octal', () => {
 
 describe('frames of the manuals', () => {
   test.each(vectors.filter(({ side }) => side === 'request'))('$id', (vector) => {
-    const explanation = explained(bytesOf(vector))
+    const explanation = explained(bytesOf(vector), { marker: vector.marker ?? 'once' })
     expect(explanation).toMatchObject({ frame: 'JW', direction: 'request', command: vector.command })
     const head = explanation.rows.find(({ name }) => name === 'head')
     expect(head?.value).toEqual(vector.message?.head)
@@ -61,7 +62,8 @@ describe('frames of the manuals', () => {
   })
 
   test.each(vectors.filter(({ side }) => side === 'response'))('$id', (vector) => {
-    const explanation = explained(bytesOf(vector), requestOf(vector))
+    const marker = vector.marker ?? 'once'
+    const explanation = explained(bytesOf(vector), { marker, request: requestOf(vector) })
     expect(explanation).toMatchObject({ frame: 'JW', direction: 'response', endCode: vector.result })
     if (Array.isArray(vector.message?.data)) expect([...dataOf(explanation)]).toEqual(vector.message.data)
   })
@@ -72,7 +74,7 @@ describe('words', () => {
 
   test('say the address as a JW numbers it, and what the answer repeats', () => {
     const answer = Buffer.from('450024000000080400004f3201', 'hex')
-    const lines = explained(answer, request).rows.map(({ name, text }) => `${name}: ${text}`)
+    const lines = explained(answer, { request }).rows.map(({ name, text }) => `${name}: ${text}`)
     expect(lines).toEqual([
       'id: response',
       'attr: 0',
@@ -83,6 +85,45 @@ describe('words', () => {
       'data: 00 4F 32 01',
     ])
   })
+
+  test.each([
+    ['47000200 02ff070100', 'address', '003777 octal'],
+    ['470023 09000100', 'number', '0011 octal'],
+    ['470044 0881000200', 'segment', '08H'],
+    ['470044 0881000200', 'address', '000201 octal'],
+    ['470078 01010201002000 04', 'file', 'file 01H'],
+    ['470078 01010201002000 04', 'address', '020000 octal'],
+    ['470027 01ff0100080000', 'items.0.address', 'file 01H, byte 004000 octal (extended)'],
+  ])('of %s say %s as it is numbered', (hex, name, text) => {
+    const { rows, fault } = explainJwFrame(Buffer.from(hex.replaceAll(' ', ''), 'hex'))
+    expect(fault).toBeUndefined()
+    expect(rows.find((row) => row.name === name)?.text).toBe(text)
+  })
+
+  test('say what a result code means, and pass an unknown one on', () => {
+    const result = (code: string) =>
+      explainJwFrame(Buffer.from(`450034${code}`, 'hex')).rows.find(({ name }) => name === 'result')?.text
+    expect(result('10')).toBe('10H (refused: The write mode does not allow it)')
+    expect(result('05')).toBe('05H (refused: no text is known for this code)')
+  })
+
+  test('say where a relay leads', () => {
+    const frame = jwProtocol({ header: { pda: 1, psa: 2, slot: 3, station: 4 } })
+      .exchange(jwCommands.readRunState, {})
+      .write(0)
+    expect(explained(frame, {}).rows[0]?.text).toBe(
+      'header of 40 bytes: relay to station 4 by the unit in slot 3, PDA 1, PSA 2',
+    )
+  })
+
+  test.each(['4700fc0041423132', '4700fc00414231', '4700fc004142312d', '4700fc0341423132'])(
+    'of %s never show the password',
+    (hex) => {
+      const text = formatExplanation(explainJwFrame(Buffer.from(hex, 'hex')))
+      expect(text).not.toMatch(/41 42|AB1/)
+      expect(text).toMatch(/\*\* \*\*/)
+    },
+  )
 
   test('without the request say that it is needed', () => {
     const { notes, fault } = explainJwFrame(Buffer.from('450024000000080400004f3201', 'hex'))

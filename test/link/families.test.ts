@@ -7,7 +7,7 @@ import { describe, expect, test } from '@jest/globals'
 import type { Message } from '../../src/codec/codec'
 import { EndCodeError, type PlcError, ProtocolError } from '../../src/errors'
 import type { JwAddress } from '../../src/jw/address'
-import { jwCommands } from '../../src/jw/commands'
+import { jwCommands } from '../../src/jw/commands/commands'
 import { jwProtocol } from '../../src/jw/protocol'
 import type { Head } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
@@ -346,7 +346,7 @@ describe.each(wires)('Sharp JW, %s', (wire) => {
     test('a result code is a refusal, and the connection lives', () => {
       const line = new Line(jw.framing, plcOf(), wire)
       const error = line.fails(
-        jw.exchange(jwCommands.readDataMemory, { head: { file: 0, address: 0xffff }, length: 2 }),
+        jw.exchange(jwCommands.readDataMemory, { head: { file: 1, address: 0xffff, extended: true }, length: 2 }),
       )
       expect(error).toMatchObject({
         name: 'EndCodeError',

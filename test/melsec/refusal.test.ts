@@ -1,7 +1,7 @@
 /** What an error says of an end code, by the protocol that received it: programs decide by that, not by tables. */
 import { describe, expect, test } from '@jest/globals'
 import { EndCodeError } from '../../src/errors'
-import { jwCommands } from '../../src/jw/commands'
+import { jwCommands } from '../../src/jw/commands/commands'
 import { jwProtocol } from '../../src/jw/protocol'
 import type { Exchange, Head } from '../../src/link/link'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
@@ -70,16 +70,16 @@ describe('a refusal', () => {
   })
 
   test.each([
-    [0x06, 'state', 'refused'],
-    [0x12, 'state', 'refused'],
-    [0x11, 'item', 'unknown'],
-    [0x0f, 'unknown', 'unknown'],
-  ])('of a JW with %i is about its %s and %s, and has no text of MELSEC', (endCode, about, outcome) => {
+    [0x06, 'state', 'refused', 'The PLC is not stopped.'],
+    [0x12, 'state', 'refused', 'The memory is a ROM.'],
+    [0x11, 'item', 'unknown', 'The address is not in the program area.'],
+    [0x55, 'unknown', 'unknown', undefined],
+  ])('of a JW with %i is about its %s and %s, and has no text of MELSEC', (endCode, about, outcome, meaning) => {
     const { writeDataMemory } = jwCommands
     const message = { head: { file: 0, address: 0o4000 }, data: Buffer.from([1, 2]) }
     const error = refused(jwProtocol().exchange(writeDataMemory, message), { command: writeDataMemory.code }, endCode)
     expect(error).toMatchObject({ family: 'jw', about, outcome, commandName: 'writeDataMemory' })
-    expect([error.meaning, error.remedy]).toEqual([undefined, undefined])
+    expect(error.meaning).toBe(meaning)
     expect(error.message).toContain(ENDED[error.outcome])
   })
 })

@@ -1,6 +1,7 @@
 /** Every declaration of this package, in every code and form it is sent in. */
 import type { DataCode, Declaration, Shape } from '../../src/codec/codec'
-import { jwCommands } from '../../src/jw/commands'
+import { jwCommands } from '../../src/jw/commands/commands'
+import { markerForms } from '../../src/jw/commands/data-memory'
 import { aCompatibleCommands } from '../../src/melsec/a-compatible/commands'
 import type { MelsecDeclaration } from '../../src/melsec/commands/command'
 import { commands } from '../../src/melsec/commands/commands'
@@ -44,7 +45,7 @@ const families: Readonly<Record<string, Family>> = {
   files: { list: fileCommands, forms: { binary: fileForms, ascii: fileForms } },
   '1E': { list: aCompatibleCommands, forms: { binary: [0], ascii: [0, FORM_XY_OCTAL] } },
   '1C': { list: oneCCommands, forms: { ascii: [0, FORM_XY_OCTAL] } },
-  jw: { list: jwCommands, forms: { binary: [0] } },
+  jw: { list: jwCommands, forms: { binary: Object.values(markerForms) } },
 }
 
 export const declarationCases: readonly DeclarationCase[] = Object.entries(families).flatMap(

@@ -116,6 +116,8 @@ export interface FrameVector extends Known {
   readonly commandCode?: number
   readonly result?: number
   readonly header?: string
+  /** JW lists: where FFH stands, when it is not once before the first address. */
+  readonly marker?: 'each'
 }
 
 /** A request outside a printed limit: an encoder refuses the message, a responder the bytes. */
@@ -267,7 +269,7 @@ export type Vector =
   | FileValueVector
   | FileEntryVector
 
-/** One file each: SLMP (and 3E, 4E), labels and files of SLMP, 1E, serial for format 5, serial for formats 1 and 4, JW 24H and 34H, other JW. */
+/** One file each: SLMP (and 3E, 4E), labels and files of SLMP, 1E, serial for format 5, serial for formats 1 and 4, JW as printed, JW as it follows from the layouts, JW over serial lines. */
 export const FAMILIES = [
   'slmp',
   'labels',
@@ -275,8 +277,9 @@ export const FAMILIES = [
   'mc-ethernet-1e',
   'mc-serial',
   'mc-serial-ascii',
+  'jw-printed',
   'jw',
-  'jw-later',
+  'jw-serial',
 ] as const
 export type Family = (typeof FAMILIES)[number]
 

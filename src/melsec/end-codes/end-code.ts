@@ -1,5 +1,6 @@
 // What an end code means and what to do, in four languages.
-import { type EndCodeAbout, EndCodeError, type EndCodeFamily, endCodeFamilies, RequestError } from '../../errors'
+import { EndCodeError, type EndCodeFamily, endCodeFamilies, RequestError } from '../../errors'
+import type { EndCodeExplanation } from '../../link/link'
 import type { CommandName } from '../commands/commands'
 import type { EndCodeEntry } from './entry'
 import { factsOf } from './facts'
@@ -7,6 +8,7 @@ import { isMelsecFamily, type MelsecEndCodeFamily, melsecEndCodeFamilies } from 
 import type { RemedyName } from './remedies'
 import { type Language, languages, type Texts } from './texts'
 
+export type { EndCodeExplanation } from '../../link/link'
 export type { EndCodeEntry } from './entry'
 export { type MelsecEndCodeFamily, melsecEndCodeFamilies } from './family'
 export type { Language } from './texts'
@@ -25,26 +27,6 @@ function tables(): Tables {
 /** Every end code of a family with a text of its own, in no particular order; `to` is the last code of a range. */
 export function endCodes(family: MelsecEndCodeFamily): readonly EndCodeEntry[] {
   return tables().endCodeEntries[family]
-}
-
-/** What an end code means, in one language. */
-export interface EndCodeExplanation {
-  /** Whose number it is. */
-  readonly family: EndCodeFamily
-  /** One or more whole sentences. */
-  readonly meaning: string
-  /** What it most likely is for this command, when that is known. */
-  readonly cause?: string
-  /** What to do: one or more whole sentences. */
-  readonly remedy: string
-  /** What kind of code it is and where it is found, a sentence each; empty when only its range is known. */
-  readonly where: readonly string[]
-  /** `false`: no answer to a request carries it; a register or history of the PLC holds it. */
-  readonly answer: boolean
-  /** What it is about when an answer carries it, as `EndCodeError.about`. */
-  readonly about: EndCodeAbout
-  /** `false`: only the module that reported it is known, from the range the code is in. */
-  readonly exact: boolean
 }
 
 /** How an end code is explained. */

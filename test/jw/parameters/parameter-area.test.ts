@@ -24,7 +24,7 @@ import { messagesOf, refusal } from './problems'
 
 describe('the start switch', () => {
   /** Requests of 12H and 02H among the vectors, which hold address and bytes. */
-  const vectors: readonly FrameVector[] = vectorsOfKind('jw-later', 'frame')
+  const vectors: readonly FrameVector[] = vectorsOfKind('jw', 'frame')
   const requestOf = (id: string) => vectors.find((vector) => vector.id === id)?.hex.slice(10)
   const hexOf = (address: number, bytes: Uint8Array) => {
     const head = Buffer.alloc(4)
