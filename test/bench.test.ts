@@ -17,6 +17,8 @@ test('every benchmark runs to its end', async () => {
     ['mixed items', 1],
     ['words x 960', 2],
     ['Read (word units), 960 point(s)', 2],
+    ['960 words, 4C format 5', 1],
+    ['far apart, 1C format 1', 1],
   ] as const) {
     expect(rows.filter((line) => line.startsWith(row))).toHaveLength(times)
   }
