@@ -5,10 +5,14 @@ import { join } from 'node:path'
 /** What a source file loads when it is needed. A bundler loads nothing later: there it is an import as any other. */
 const REQUIRE = /\brequire\('([^']+)'\)/g
 
-/** The text with its `require` as imports. Our own files are taken as their names, a package as what it exports. */
-function withImports(text) {
+/**
+ * The text with its `require` as imports. Our own files are taken as their names, a package as what it exports. A package that
+ * may be absent is imported where it stands, in a function that is `async`: at the top it would end every program without it.
+ */
+function withImports(text, optional) {
   const imports = []
   const body = text.replace(REQUIRE, (_, specifier) => {
+    if (optional.includes(specifier)) return `(await import('${specifier}'))`
     const name = `required${imports.length}`
     imports.push(`import ${specifier.startsWith('.') ? `* as ${name}` : name} from '${specifier}'\n`)
     return name
@@ -17,14 +21,14 @@ function withImports(text) {
 }
 
 /** Nothing is bundled: every import stays one, by the name of its file. */
-const perFile = (readFile) => ({
+const perFile = (readFile, optional) => ({
   name: 'one module per file',
   setup(build) {
     build.onResolve({ filter: /.*/ }, ({ kind, path }) => {
       if (kind === 'entry-point') return undefined
       return { path: path.startsWith('.') ? `${path}.mjs` : path, external: true, sideEffects: false }
     })
-    build.onLoad({ filter: /\.ts$/ }, ({ path }) => ({ contents: withImports(readFile(path)), loader: 'ts' }))
+    build.onLoad({ filter: /\.ts$/ }, ({ path }) => ({ contents: withImports(readFile(path), optional), loader: 'ts' }))
   },
 })
 
@@ -33,6 +37,7 @@ const perFile = (readFile) => ({
  * @param {{ root: string, outdir: string, readFile(path: string): string }} options
  */
 export async function buildModules(files, { root, outdir, readFile }) {
+  const optional = Object.keys(JSON.parse(readFile(join(root, 'package.json'))).optionalDependencies ?? {})
   const { build } = await import('esbuild')
   await build({
     entryPoints: files.map((file) => join(root, file)),
@@ -45,6 +50,6 @@ export async function buildModules(files, { root, outdir, readFile }) {
     platform: 'neutral',
     charset: 'utf8',
     logLevel: 'error',
-    plugins: [perFile(readFile)],
+    plugins: [perFile(readFile, optional)],
   })
 }

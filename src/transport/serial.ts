@@ -1,8 +1,8 @@
 /** A serial port of this computer. The package `serialport` is loaded when one is opened, and not before. */
 import type { SerialPort } from 'serialport'
 import { ConnectionError, RequestError } from '../errors'
-import { realClock } from './clock'
 import { notOpen, notRenewable } from './failure'
+import { loadSerialPort } from './serial-package'
 import type { OpenTransport, Transport, TransportHandlers } from './transport'
 
 /** What the serial port of an FX5 takes (FX5 communication manual 34.1); whoever speaks to others may need no more. */
@@ -99,13 +99,19 @@ class SerialTransport implements Transport {
     if (this.#state !== 'new') throw new Error(`${this.description}: open() was called before, make another transport`)
     this.#state = 'opening'
     this.#handlers = handlers
-    const { path, baudRate, dataLength: dataBits, parity, stopBits, rts } = this.#settings
-    const Port = load()
+    void this.#openPort(closing.get(this.#settings.path))
+  }
+
+  /** @param before the port is being closed, which takes the system a moment */
+  async #openPort(before: Promise<void> | undefined): Promise<void> {
+    const Port = await loadSerialPort()
+    await before
+    if (this.#state !== 'opening') return
     if (Port instanceof ConnectionError) {
-      // Not before this returns, as of any other transport.
-      realClock.timer(0, () => this.#finish(Port))
+      this.#finish(Port)
       return
     }
+    const { path, baudRate, dataLength: dataBits, parity, stopBits, rts } = this.#settings
     // Nobody else may send in between: the port is ours alone.
     const port = new Port({ path, baudRate, dataBits, parity, stopBits, lock: true, autoOpen: false })
     this.#port = port
@@ -175,20 +181,17 @@ class SerialTransport implements Transport {
   }
 }
 
+/** Ports that are closing, by name: until the system is done with it, a port is taken. */
+const closing = new Map<string, Promise<void>>()
+
 /** What it says of being closed already means nothing. */
 function closed(port: SerialPort | undefined): void {
-  if (port?.isOpen === true) port.close(() => {})
-}
-
-/** The class of the package, or why there is none. */
-function load(): typeof SerialPort | ConnectionError {
-  try {
-    return (require('serialport') as typeof import('serialport')).SerialPort
-  } catch (cause) {
-    const message =
-      'Serial ports need the package serialport, which is not installed here, or not for this system: npm install serialport'
-    return new ConnectionError('PORT_UNAVAILABLE', message, 'notSent', cause)
-  }
+  if (port?.isOpen !== true) return
+  const { path } = port
+  const done = new Promise<void>((resolve) => port.close(() => resolve())).then(() => {
+    if (closing.get(path) === done) closing.delete(path)
+  })
+  closing.set(path, done)
 }
 
 function cannotOpen(description: string, cause: Error): ConnectionError {

@@ -44,9 +44,9 @@ test.each([
   ['on', ['write', 'close']],
   ['off', [{ rts: false }, 'write', 'close']],
   ['sending', [{ rts: false }, { rts: true }, 'write', 'drain', { rts: false }, 'close']],
-] as const)('%s', (rts, expected) => {
+] as const)('%s', async (rts, expected) => {
   const transport = serialTransport({ path: 'COM3', rts })()
-  transport.open({ opened() {}, received() {}, closed() {} })
+  await new Promise<void>((opened) => transport.open({ opened, received() {}, closed() {} }))
   transport.send(Buffer.of(1))
   transport.close()
   expect(done).toEqual(expected)
