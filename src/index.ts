@@ -136,7 +136,7 @@ export { type ExtendUnitInfo, extendUnits, type ModulePlace } from './melsec/ext
 export { type FileTime, fileTimeOf, formatFileTime, isFileTime } from './melsec/file/time'
 export { type EthernetFrameName, ethernetFrameNames, type FrameName, frameNames } from './melsec/frame/frames'
 export { type ModuleIoNumber, moduleIoNumbers, type Route } from './melsec/frame/route'
-export type { SerialFormat, SerialFrameName } from './melsec/frame/serial-frames'
+export { type SerialFormat, type SerialFrameName, serialFrameNames } from './melsec/frame/serial-frames'
 export { type Model, modelCodes, modelOf, type Series } from './melsec/model-code'
 export { profiles, resolveProfile } from './melsec/profiles/info'
 export {
@@ -171,7 +171,8 @@ export type {
   SpecialDevice,
 } from './melsec/serial-channels'
 export type { Clock, TimerOptions } from './transport/clock'
-export type { BaudRate, SerialOptions } from './transport/serial'
+export { type BaudRate, baudRates, type SerialOptions } from './transport/serial'
+export { type SerialPortInfo, serialPorts } from './transport/serial-ports'
 export type { OpenTransport, Transport, TransportHandlers } from './transport/transport'
 export type { TextName, TypeToValue } from './value/type'
 export {

@@ -62,6 +62,8 @@ const OUTSIDE: readonly (readonly [RegExp, readonly string[]])[] = [
   [/^node:buffer$/, Object.keys(ROOMS)],
   // Drives of the simulator that are folders of this computer.
   [/^node:(fs|path)$/, ['simulator', 'cli']],
+  // The folder of the serial ports, where the system tells of none.
+  [/^node:fs\/promises$/, ['transport', 'cli']],
   // Files of a PLC as streams: no input or output by itself.
   [/^node:stream$/, ['client', 'cli']],
   // Time and the network reach the command line through the library like everybody else.
