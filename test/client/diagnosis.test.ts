@@ -2,6 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { explainSilence, type LinkSettings } from '../../src/client/melsec/diagnosis'
 import { ownStation } from '../../src/melsec/frame/route'
+import { serialSettings } from '../../src/transport/serial'
 
 const settings: LinkSettings = { transport: 'tcp', port: 5007, frame: '3E', code: 'binary', route: ownStation }
 const fresh = { peer: 'tcp 192.168.3.39:5007', answeredBefore: false }
@@ -62,4 +63,55 @@ test('a PLC that has answered before is off, slow, or was set differently', () =
   expect(causes[0]).toContain('off, restarting, or its cable')
   expect(causes.join(' ')).not.toContain('ASCII code and this connection')
   expect(causes).toHaveLength(4)
+})
+
+describe('a PLC on a serial line', () => {
+  const port = serialSettings({ path: 'COM3', baudRate: 19_200, dataLength: 8, parity: 'even' })
+  const link = { station: 2, format: 4, sumCheck: true, port, isRemote: false } as const
+  const onLine: LinkSettings = { ...settings, transport: 'serial', frame: '3C', code: 'ascii', link }
+  const silent = (more: object = {}, given: Partial<LinkSettings> = {}) =>
+    explainSilence({ ...onLine, ...given }, { ...fresh, ...more }).map((cause) => cause.slice(0, 24))
+
+  test('most likely speaks another protocol, then at another speed; wires and converter come later', () => {
+    const causes = explainSilence(onLine, fresh)
+    expect(causes[0]).toContain('does not speak MC protocol')
+    expect(causes[1]).toContain('here it is 19200 bps')
+    expect(causes[2]).toContain('here they are 8E1')
+    expect(causes[3]).toContain('station number 2')
+    expect(causes[4]).toContain('here it is format 4')
+    expect(causes[5]).toContain('has no sum check code, and this line adds one')
+    expect(causes[6]).toContain('does not know the 3C frame: try 4C')
+    expect(causes[7]).toMatch(/SDA.+RDA/)
+    expect(causes[8]).toContain('RTS "while sending"')
+    expect(causes).toHaveLength(11)
+  })
+
+  test('of which something was heard has its wires right: most likely the speed differs', () => {
+    const causes = silent({ heard: true })
+    expect(causes.slice(0, 3)).toEqual([
+      'The baud rate of the PLC',
+      'Data length, parity bit ',
+      'The converter does not l',
+    ])
+    expect(causes.join()).not.toContain('The wires')
+  })
+
+  test('beside others that answer most likely has another number', () => {
+    const causes = silent({ othersAnswer: true })
+    expect(causes.slice(0, 2)).toEqual(['No PLC on the line has s', 'The PLC is off, restarti'])
+  })
+
+  test('behind a device server most likely has one that is set differently', () => {
+    expect(silent({}, { link: { ...link, isRemote: true } })[0]).toBe('The device server is not')
+  })
+
+  test('without sum check code, of a family with one frame', () => {
+    const causes = explainSilence({ ...onLine, frames: ['3C'], link: { ...link, sumCheck: false } }, fresh).join()
+    expect(causes).toContain('has a sum check code, and this line adds none')
+    expect(causes).not.toContain('frame: try')
+  })
+
+  test('that has answered before is off, slow, or disturbed', () => {
+    expect(silent({ answeredBefore: true })).toHaveLength(5)
+  })
 })

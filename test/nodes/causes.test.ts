@@ -4,7 +4,8 @@ import { causesIn, messageWith, withoutCauses } from '../../nodes/causes'
 import type { Texts } from '../../nodes/texts'
 import * as failure from '../../src/client/connection/failure'
 import { explainSilence, type LinkSettings } from '../../src/client/melsec/diagnosis'
-import { frameNames } from '../../src/index'
+import { ethernetFrameNames, serialFrameNames } from '../../src/index'
+import { serialSettings } from '../../src/transport/serial'
 import { nodesOf, parseTypeScript, readText, textOf } from '../support/syntax'
 
 type Catalogue = { readonly language: string; readonly [part: string]: unknown }
@@ -27,7 +28,7 @@ function textsIn(language: string): Texts {
 const own = { network: 0, station: 255, moduleIo: 0x3ff, multidrop: 0 }
 
 function silences(): string[] {
-  const settings = frameNames.flatMap((frame) =>
+  const settings = ethernetFrameNames.flatMap((frame) =>
     (['binary', 'ascii'] as const).flatMap((code) =>
       [own, { ...own, network: 1, station: 3 }].flatMap((route) =>
         [undefined, 5002].map(
@@ -36,10 +37,18 @@ function silences(): string[] {
       ),
     ),
   ) satisfies readonly LinkSettings[]
+  const port = serialSettings({ path: 'COM3', baudRate: 19_200 })
+  const links = [true, false].map((on) => ({ station: 7, format: 4, sumCheck: on, port, isRemote: on }) as const)
+  const serial = serialFrameNames.flatMap((frame) =>
+    links.map((link) => ({ transport: 'serial', port: undefined, frame, code: 'ascii', route: own, link }) as const),
+  ) satisfies readonly LinkSettings[]
   const peer = 'udp 10.0.0.1:5010'
   return [
-    ...settings.flatMap((each) => explainSilence(each, { peer, answeredBefore: false, onlyAsked: 'Read (0401)' })),
+    ...[...settings, ...serial].flatMap((each) =>
+      explainSilence(each, { peer, answeredBefore: false, onlyAsked: 'Read (0401)' }),
+    ),
     ...explainSilence({ ...settings[0], port: 5010 } as LinkSettings, { peer, answeredBefore: true }),
+    ...explainSilence(serial[0] as LinkSettings, { peer, answeredBefore: true }),
     failure.NO_SELF_TEST,
   ]
 }
@@ -72,7 +81,7 @@ describe.each(['ja', 'zh-CN', 'zh-TW'])('in %s', (language) => {
     expect(told).toMatch(/[\u3040-\u30ff\u4e00-\u9fff]/)
     expect(told).not.toMatch(/undefined|__/)
     // Numbers that are not part of a name are the same.
-    for (const number of cause.match(/\b(?:5010|5002|0401)\b/g) ?? []) expect(told).toContain(number)
+    for (const number of cause.match(/\b(?:5010|5002|0401|19200|7O1)\b/g) ?? []) expect(told).toContain(number)
   })
 })
 

@@ -31,6 +31,10 @@ export interface Silence {
   readonly answeredBefore: boolean
   /** The only request that it was asked, when it is the client's own that proves the connection. */
   readonly onlyAsked?: string
+  /** Something came since the line was opened, though no answer. */
+  readonly heard?: boolean
+  /** Other PLCs on the same line answer. */
+  readonly othersAnswer?: boolean
 }
 
 /** A request that proves a connection: any answer to it, also a refusal, proves that the PLC is there. */

@@ -5,6 +5,7 @@ import { type FrameFacts, frameFacts } from '../../melsec/frame/frames'
 import { isConnectedStation, type RouteToStation, stationText } from '../../melsec/frame/route'
 import type { FrameName, TransportName } from '../../melsec/profiles/profile'
 import type { Silence } from '../connection/connection'
+import { LONGER, type SerialLink, SLOW, serialCauses, serialChanges, UNKNOWN_REQUEST } from './serial-diagnosis'
 
 export interface LinkSettings {
   readonly transport: TransportName
@@ -16,6 +17,8 @@ export interface LinkSettings {
   readonly route: RouteToStation
   /** Local port, when the user fixed it. */
   readonly localPort?: number | undefined
+  /** On a serial line: what both sides must have alike. */
+  readonly link?: SerialLink | undefined
 }
 
 const OTHER_CODE = { binary: 'ASCII', ascii: 'binary' } as const
@@ -23,30 +26,35 @@ const THIS_CODE = { binary: 'binary code', ascii: 'ASCII code' } as const
 
 /** Ranked causes of a silence, as sentences that say what to check. */
 export function explainSilence(settings: LinkSettings, silence: Silence): readonly string[] {
-  if (silence.answeredBefore) return afterItWorked()
-  const causes = fromTheStart(settings)
+  const { link } = settings
+  if (silence.answeredBefore) return link === undefined ? afterItWorked() : serialChanges
+  const causes = link === undefined ? fromTheStart(settings) : serialCauses(link, otherFrame(settings), silence)
   return silence.onlyAsked === undefined ? causes : [...causes, unknownProbe(silence.onlyAsked)]
 }
 
 function fromTheStart(settings: LinkSettings): readonly string[] {
-  const { transport, port, frame, frames, code, route, localPort } = settings
+  const { transport, port, frame, code, route, localPort } = settings
   const dataCode = `The PLC's port is set to ${OTHER_CODE[code]} code and this connection to ${THIS_CODE[code]}: compare "communication data code" in GX Works.`
   const peer =
     `UDP: the PLC sends its answer to the peer that is registered in its open settings; register this computer's address${localPort === undefined ? ' and set a fixed local port here' : ` and port ${localPort}`}, ` +
     'or choose an entry that answers anybody. A firewall on the way has the same effect.'
   const otherPort = `Port ${port} is open for something else (MELSOFT, socket, Modbus): use the port of an SLMP (MC protocol) entry.`
-  const { title, instead, knownTo }: FrameFacts = frameFacts[frame]
-  const known = knownTo === undefined ? '' : ` (${knownTo})`
-  const otherFrame = `The PLC does not know the ${title} frame: try ${instead}${known}.`
   const elsewhere = `Network ${route.network}, ${stationText(route).toLowerCase()} does not answer: check the route, or leave it at the own station.`
   const routed = !isConnectedStation(route)
-  const frameCauses = frames?.includes(instead) === false ? [] : [otherFrame]
+  const frameCauses = otherFrame(settings)
   // 3E is known to all, binary is usual: who has neither chosen has a series whose default the PLC does not know (FX5 as iQ-R).
   const settingsOf =
     frame === '3E' || code === 'ascii' ? [dataCode, otherPort, ...frameCauses] : [...frameCauses, dataCode, otherPort]
-  const common = [...settingsOf, 'The PLC is busy or the line slow: raise the timeout.']
+  const common = [...settingsOf, SLOW]
   const ranked = transport === 'udp' ? [peer, ...common] : common
   return routed ? [elsewhere, ...ranked] : ranked
+}
+
+/** None where the family has no other. */
+function otherFrame({ frame, frames }: LinkSettings): readonly string[] {
+  const { title, instead, knownTo }: FrameFacts = frameFacts[frame]
+  if (frames?.includes(instead) === false) return []
+  return [`The PLC does not know the ${title} frame: try ${instead}${knownTo === undefined ? '' : ` (${knownTo})`}.`]
 }
 
 /** Nothing else was asked, so it may be that request alone that the device does not know. */
@@ -57,8 +65,8 @@ function unknownProbe(asked: string): string {
 function afterItWorked(): readonly string[] {
   return [
     'The PLC is off, restarting, or its cable or a switch on the way is interrupted.',
-    'The PLC needed longer than the timeout: raise it, or ask for less at once.',
+    LONGER,
     'The port settings of the PLC were changed (data code, entry, remote password) since it last answered.',
-    'The device answers other requests, but does not know this one and says nothing to it.',
+    UNKNOWN_REQUEST,
   ]
 }

@@ -61,6 +61,7 @@ import { notPermitted, optionsOfMany, overUdp } from './permission'
 import { probesOf } from './probes'
 import { RemotePassword } from './remote-password'
 import type { SendCommand } from './send-command'
+import { serialLinkOf } from './serial-settings'
 import { type Settings, settle } from './settings'
 
 /** Node.js before 20.5 has no such symbol; programs for it bring one of this name. */
@@ -113,7 +114,13 @@ export class MelsecPlcClient implements MelsecClient {
       probes: probesOf(this.#protocol, settings.probe),
       explainSilence: (silence) =>
         explainSilence(
-          { ...settings, port: options.port, localPort: options.localPort, frames: settings.profile.frames },
+          {
+            ...settings,
+            port: options.port,
+            localPort: options.localPort,
+            frames: settings.profile.frames,
+            link: serialLinkOf(settings.serialLine, settings.serial),
+          },
           silence,
         ),
       onState: (state) => this.#changed(state),

@@ -60,10 +60,13 @@ const NAMES = {
 export class SerialLine implements MelsecLine {
   readonly settings: SerialLineSettings
   readonly line: Line
+  /** Behind a device server. */
+  readonly isRemote: boolean
   readonly #description: string
 
   constructor(options: MelsecLineOptions, usual?: SerialFrameName) {
     this.settings = settleSerialLine(options, usual)
+    this.isRemote = options.host !== undefined
     const openTransport = options.openTransport ?? transportOf(options, this.settings)
     this.#description = options.openTransport === undefined ? openTransport().description : 'a transport of its own'
     this.line = new Line({

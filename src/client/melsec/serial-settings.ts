@@ -6,6 +6,7 @@ import type { SerialProtocolOptions } from '../../melsec/client-protocol'
 import { isSerialFrame, serialFormatCodes, serialRoute } from '../../melsec/frame/serial-frames'
 import { type FrameName, type Profile, type TransportName, transportNames } from '../../melsec/profiles/profile'
 import type { MelsecClientOptions } from './options'
+import type { SerialLink } from './serial-diagnosis'
 import { SerialLine, serialLineOf } from './serial-line'
 
 /** The line of a serial frame: its own, or the one it shares. */
@@ -87,6 +88,17 @@ export function serialOf(
     throw new RequestError('BAD_OPTION', message, 'messageWait')
   }
   return { ...format, messageWait: wait, head: serialRoute(frame, route, profile.serial?.reach) }
+}
+
+/** What both sides of a serial line must have alike. */
+export function serialLinkOf(
+  line: SerialLine | undefined,
+  serial: SerialProtocolOptions | undefined,
+): SerialLink | undefined {
+  if (line === undefined || serial === undefined) return undefined
+  const { frame, port } = line.settings
+  const { format, sumCheck = true } = frame
+  return { station: serial.head.station, format, sumCheck, port, isRemote: line.isRemote }
 }
 
 /** A way that the frame cannot take, and an option that is of no use, would look as if they counted. */
