@@ -20,7 +20,13 @@ export interface JwExtendedAddress extends JwAddress {
 }
 
 const EXTENDED = 0xff
-const LAST = { basicFile: 0x80, basic: 0xffff, extended: [0xffff, 0x7fffff] } as const
+/** Last file number of the basic form. */
+export const LAST_FILE = 0x80
+/** Extended file of the file registers of a JW300. */
+export const FILE_REGISTERS = 1
+/** Bytes of a file of the basic form, and of a page of the file registers. */
+export const PAGE = 0x10000
+const LAST_EXTENDED = [PAGE - 1, LAST_FILE * PAGE - 1]
 
 /** Basic: SEG ADRL ADRH. Extended: FF SEG ADRLL ADRLH ADRHL ADRHH. The first byte tells which. */
 export const jwAddress: ValueCodec<JwAddress> = {
@@ -89,10 +95,20 @@ function check(value: JwAddress): void {
 
 /** Last byte address of the file, `undefined` when there is no such file. */
 export function lastAddress({ file, extended }: Pick<JwAddress, 'file' | 'extended'>): number | undefined {
-  if (extended === true) return LAST.extended[file]
-  return Number.isInteger(file) && file >= 0 && file <= LAST.basicFile ? LAST.basic : undefined
+  if (extended === true) return LAST_EXTENDED[file]
+  return Number.isInteger(file) && file >= 0 && file <= LAST_FILE ? PAGE - 1 : undefined
 }
 
 function outOfRange(what: string, found: number): RequestError {
   return new RequestError('OUT_OF_RANGE', `${what} ${found} does not exist in a Sharp JW address`)
+}
+
+/** The basic form of a byte of the file registers: its page is a file of its own, from file 1 on. */
+export function pageOfRegisters(address: number): JwAddress {
+  return { file: FILE_REGISTERS + Math.floor(address / PAGE), address: address % PAGE }
+}
+
+/** The extended form of a byte of a page of the file registers: the reverse of {@link pageOfRegisters}. */
+export function registersOfPage(file: number, address: number): JwExtendedAddress {
+  return { file: FILE_REGISTERS, address: (file - FILE_REGISTERS) * PAGE + address, extended: true }
 }

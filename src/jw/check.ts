@@ -1,5 +1,7 @@
 // What fits the fields of a request and must not be sent all the same.
+
 import { hex } from '../basics/hex'
+import { octal } from '../basics/octal'
 import { type Declaration, type Message, sizeIn } from '../codec/codec'
 import { RequestError } from '../errors'
 import { type JwAddress, lastAddress } from './address'
@@ -40,13 +42,9 @@ function checkExtent({ first, size, end }: Extent, message: Message): void {
   if (typeof from !== 'number' || behind === undefined || count === undefined || from + count <= behind) return
   throw new RequestError(
     'OUT_OF_RANGE',
-    `${first}: ${count} byte(s) from ${octal(from)} on go past ${octal(behind - 1)} (octal), the last there is`,
+    `${first}: ${count} byte(s) from ${octal(from, 4)} on go past ${octal(behind - 1, 4)} (octal), the last there is`,
     first,
   )
-}
-
-function octal(address: number): string {
-  return address.toString(8).padStart(4, '0')
 }
 
 function refuse(message: string, field?: string): never {

@@ -6,6 +6,7 @@
 // Of the commands one is printed (MRL with the number of a relay), of the data of answers none, nor how long a frame gets, speed,
 // parity or time-outs. So the content is raw characters here, and no client sends it. Assumed: RI comes before EC (read from a
 // figure), and no content holds a colon.
+import { octal } from '../basics/octal'
 import { badMessage, digitValue, failAt, putUint, sumOf, uintAt } from '../codec/codec'
 import type { Framing, Head, RequestFrame, ResponseFrame, Scanned } from '../link/link'
 
@@ -81,7 +82,7 @@ function write(kind: keyof typeof KINDS, head: ComputerLinkHead, content: Uint8A
   if (other !== undefined) badMessage(`the content holds printable characters other than a colon, not ${other}`)
   const frame = Buffer.alloc(size)
   frame[0] = START
-  frame.write(station.toString(8).padStart(2, '0'), 1, 'latin1')
+  frame.write(octal(station, 2), 1, 'latin1')
   frame[3] = KINDS[kind]
   frame.write(responseTime.toString(16).toUpperCase(), 4, 'latin1')
   frame.set(content, CONTENT)

@@ -1,6 +1,7 @@
 // A Sharp JW message in words, field by field.
 
 import { hex } from '../basics/hex'
+import { octal } from '../basics/octal'
 import { field, hasSecret, type Message, type Shape } from '../codec/codec'
 import {
   type AnnotatedRow,
@@ -96,7 +97,7 @@ function wordsOf(name: string, value: unknown): string | undefined {
     case 'informationAddress':
       return octalText(value)
     case 'number':
-      return `${value.toString(8).padStart(4, '0')} octal`
+      return `${octal(value, 4)} octal`
     default:
       return undefined
   }
@@ -113,7 +114,7 @@ function isAddress(value: unknown): value is JwAddress {
 }
 
 function octalText(address: number): string {
-  return `${address.toString(8).padStart(6, '0')} octal`
+  return `${octal(address, 6)} octal`
 }
 
 /** As a JW numbers them: files in hexadecimal, the bytes of a file in octal. */

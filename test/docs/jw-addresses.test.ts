@@ -1,9 +1,9 @@
 /** docs/jw-addresses.md against the code: operands, areas and types. */
 import { describe, expect, test } from '@jest/globals'
+import { octal } from '../../src/basics/octal'
 import { parseJwItem } from '../../src/client/jw/item'
 import { RequestError } from '../../src/errors'
 import { assumedJwAreas, type JwArea, jwAreas } from '../../src/jw/operand/area'
-import { octal } from '../../src/jw/operand/kind'
 import { byteTypes } from '../../src/value/byte-type'
 import { codeOf, codeSpansOf, tableAfter, tablesAfter } from './markdown'
 

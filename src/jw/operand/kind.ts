@@ -5,6 +5,8 @@
  * 10-6 (system memory #201); JW300 option unit manual, "Address specification" (files, bytes).
  */
 
+import { FILE_REGISTERS, lastAddress } from '../address'
+
 /** What one number of a kind is: one bit, one byte, or a timer, counter or MD with its current value. */
 export type JwUnit = 'bit' | 'byte' | 'timer'
 
@@ -112,17 +114,7 @@ export function jwKind(name: JwKindName): JwOperandKind {
 
 /** Numbers of a register block: 09000 to 09777. */
 export const REGISTER_BLOCK = 0o1000
-/** The file whose bytes are the file registers of a JW300; all other files have 64 KiB. */
-export const FILE_REGISTERS = 1
-/** Last file number (JW300 manual: SEG 00 to 80H). */
-export const LAST_FILE = 0x80
-
-/** Last byte of a file: of file 1 37777777 octal (8 MiB), of the others 177777 (64 KiB). */
+/** Last byte of a file: of the file registers of a JW300 37777777 octal (8 MiB), of all others 177777 (64 KiB). */
 export function lastByteOf(file: number): number {
-  return file === FILE_REGISTERS ? 0x7fffff : 0xffff
-}
-
-/** A number as a JW writes it. */
-export function octal(value: number, digits = 1): string {
-  return value.toString(8).padStart(digits, '0')
+  return lastAddress(file === FILE_REGISTERS ? { file, extended: true } : { file }) ?? 0
 }

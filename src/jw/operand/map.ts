@@ -1,9 +1,12 @@
 /** The map of what lies where, made of areas: those of the user, and what is known beside them. */
+
+import { octal } from '../../basics/octal'
 import { isPlainObject } from '../../basics/option-checks'
 import { show } from '../../basics/show'
 import { RequestError } from '../../errors'
+import { LAST_FILE } from '../address'
 import { type JwArea, jwAreas } from './area'
-import { type JwKindName, jwKind, LAST_FILE, lastByteOf, octal } from './kind'
+import { type JwKindName, jwKind, lastByteOf } from './kind'
 import { type JwOperand, readOperand } from './notation'
 
 /** What is known of the PLC beside what sources confirm. */

@@ -17,18 +17,11 @@
  * Case and spaces around do not matter.
  */
 import { hex } from '../../basics/hex'
+import { octal } from '../../basics/octal'
 import { shortened, typedAddress } from '../../basics/typed-text'
 import { RequestError, type RequestErrorCode } from '../../errors'
-import {
-  FILE_REGISTERS,
-  type JwKindName,
-  jwKind,
-  jwKindNames,
-  LAST_FILE,
-  lastByteOf,
-  octal,
-  REGISTER_BLOCK,
-} from './kind'
+import { FILE_REGISTERS, LAST_FILE } from '../address'
+import { type JwKindName, jwKind, jwKindNames, lastByteOf, REGISTER_BLOCK } from './kind'
 
 /** An operand as plain data. */
 export interface JwOperand {

@@ -3,10 +3,12 @@
  *
  * Bits of a file and of the system memory are counted from bit 0 of byte 0 on, so that what lies beside what is a difference.
  */
+
+import { octal } from '../../basics/octal'
 import { RequestError } from '../../errors'
-import type { JwAddress, JwExtendedAddress } from '../address'
+import { FILE_REGISTERS, type JwAddress, type JwExtendedAddress, pageOfRegisters, registersOfPage } from '../address'
 import { assumedJwAreas, type JwArea } from './area'
-import { FILE_REGISTERS, type JwKindName, jwKind, lastByteOf, octal } from './kind'
+import { type JwKindName, jwKind, lastByteOf } from './kind'
 import {
   BITS,
   bitsOf,
@@ -151,12 +153,6 @@ export function offsetOfJw(from: JwPlace, to: JwPlace): number | undefined {
 export function jwAddressOf(place: JwFilePlace, form: 'extended'): JwExtendedAddress
 export function jwAddressOf(place: JwFilePlace, form: 'basic' | 'extended'): JwAddress
 export function jwAddressOf({ file, address }: JwFilePlace, form: 'basic' | 'extended'): JwAddress {
-  if (form === 'basic') {
-    const page = file === FILE_REGISTERS ? Math.floor(address / PAGE) : 0
-    return { file: file + page, address: address % PAGE }
-  }
-  if (file <= FILE_REGISTERS) return { file, address, extended: true }
-  return { file: FILE_REGISTERS, address: (file - FILE_REGISTERS) * PAGE + address, extended: true }
+  if (form === 'basic') return file === FILE_REGISTERS ? pageOfRegisters(address) : { file, address }
+  return file === 0 ? { file, address, extended: true } : registersOfPage(file, address)
 }
-
-const PAGE = 0x10000

@@ -1,5 +1,6 @@
 // Data link DL1 of a JW-21CM with the transfer bytes set by parameters (JW300 option unit manual, "Data link DL1"): SW0 at 5,
 // in a JW300 only. Number of slaves, link area and flags come from the switches of the master.
+import { octal } from '../../basics/octal'
 import { field, type MessageOf } from '../../codec/codec'
 import { ParameterMap, type ParameterProblem } from './parameter-map'
 
@@ -31,7 +32,7 @@ export const dl1Parameters = new ParameterMap<Dl1Settings, Dl1Settings, void>({
 
 /** A station as the manual numbers it: 00 to 17. */
 function stationText(index: number): string {
-  return index.toString(8).padStart(2, '0')
+  return octal(index, 2)
 }
 
 function ofStations(stations: Dl1Settings['stations']): ParameterProblem[] {

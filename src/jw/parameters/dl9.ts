@@ -1,5 +1,6 @@
 // Data link DL9 of a JW-21CM with areas set by parameters (JW300 option unit manual, "Data link DL9"): SW0 at 6, in a JW300 only.
 // The parameters say where the data are in the master; those of the slaves cannot be set there.
+import { octal } from '../../basics/octal'
 import { shown } from '../../basics/show'
 import { field, type MessageOf } from '../../codec/codec'
 import { RequestError } from '../../errors'
@@ -68,7 +69,7 @@ export const dl9Parameters = new ParameterMap<Dl9Settings, Dl9Settings, Dl9Switc
     const way = name.startsWith('send') ? `00 -> ${slave}` : `${slave} -> 00`
     if (name.endsWith('Bytes')) return `${way}: ${value} bytes`
     const place = switches === undefined ? '' : `, ${placeIn(areaOf(switches), Number(value))}`
-    return `${way}: offset ${octal(Number(value))} octal${place}`
+    return `${way}: offset ${octal(Number(value), 6)} octal${place}`
   },
 })
 
@@ -91,15 +92,11 @@ function sizeOf({ first, last }: Area): number {
 
 function placeIn({ prefix, first, last }: Area, offset: number): string {
   if (first + offset > last) return 'behind the area'
-  return `${prefix}${(first + offset).toString(8).padStart(last.toString(8).length, '0')}`
+  return `${prefix}${octal(first + offset, octal(last).length)}`
 }
 
 function slaveText(index: number): string {
   return octal(index + 1, 2)
-}
-
-function octal(value: number, digits = 6): string {
-  return value.toString(8).padStart(digits, '0')
 }
 
 /** What goes one way between master and a slave. */
@@ -130,7 +127,7 @@ function ofRange({ setting, slave, offset, bytes: count }: Range, area: Area): P
     found.push(error(`${setting}Bytes`, `Slave ${slave} has ${count}, may have 0 to ${MOST.bytes} (error 70H).`))
   if (offset + count > sizeOf(area)) {
     const all = `${placeIn(area, 0)} to ${placeIn(area, sizeOf(area) - 1)}`
-    const message = `Slave ${slave}: ${count} bytes from offset ${octal(offset)} octal on leave the area ${all} of ${sizeOf(area)} bytes (error 70H).`
+    const message = `Slave ${slave}: ${count} bytes from offset ${octal(offset, 6)} octal on leave the area ${all} of ${sizeOf(area)} bytes (error 70H).`
     found.push(error(`${setting}Offset`, message))
   }
   return found

@@ -1,10 +1,12 @@
 // Addresses of the CU's memory inside parameters: file number and file address (JW300 option unit manual, "How memory
 // addresses are set in parameters", printed for each unit).
+
 import { hex } from '../../basics/hex'
+import { octal } from '../../basics/octal'
 import { isPlainObject } from '../../basics/option-checks'
 import { shown } from '../../basics/show'
 import { badMessage, type ValueCodec } from '../../codec/codec'
-import type { JwAddress } from '../address'
+import { FILE_REGISTERS, type JwAddress, LAST_FILE, PAGE, pageOfRegisters, registersOfPage } from '../address'
 
 /** An address as it stands in a parameter. */
 export interface StoredAddress {
@@ -22,12 +24,9 @@ export type ParameterAddress = JwAddress | StoredAddress
  */
 export type AddressNotation = 'whole' | 'halved'
 
-/** Bytes of a file, and of a page of the file registers. */
-export const PAGE = 0x10000
-
 /** `lastPage`: file number of the last page of file registers that the unit reaches. */
 const notations = {
-  whole: { bytes: 1, lastPage: 0x80 },
+  whole: { bytes: 1, lastPage: LAST_FILE },
   halved: { bytes: 2, lastPage: 0x7f },
 } as const satisfies Record<AddressNotation, object>
 
@@ -48,7 +47,7 @@ export function storedAddress(place: ParameterAddress, notation: AddressNotation
       'is in file 0: how it is set there is not printed. Give fileNumber 0 and fileAddress as the tool of the unit shows it',
     )
   if (byte % bytes !== 0)
-    badMessage(`is at an odd byte, ${octal(byte)} octal; the unit counts words, so use an even one`)
+    badMessage(`is at an odd byte, ${octal(byte, 6)} octal; the unit counts words, so use an even one`)
   return { fileNumber, fileAddress: byte / bytes }
 }
 
@@ -65,22 +64,23 @@ function checkedStored(place: StoredAddress, notation: AddressNotation): StoredA
   if (!isWithin(fileNumber, lastPage)) badMessage(`fileNumber is ${shown(fileNumber)}, must be 0 to ${lastPage}`)
   const last = fileNumber === 0 ? PAGE - 1 : PAGE / bytes - 1
   if (!isWithin(fileAddress, last))
-    badMessage(`fileAddress is ${shown(fileAddress)}, must be 0 to ${octal(last)} octal`)
+    badMessage(`fileAddress is ${shown(fileAddress)}, must be 0 to ${octal(last, 6)} octal`)
   return { fileNumber, fileAddress }
 }
 
 /** File number and byte of an address in either form: page n of the file registers is file 1 + n. */
 function pageOf({ file, address, extended }: JwAddress): { fileNumber: number; byte: number } {
   const pages = notations.whole.lastPage
-  const registers = extended === true && file === 1
+  const registers = extended === true && file === FILE_REGISTERS
   const files = extended === true ? 1 : pages
   if (extended !== undefined && typeof extended !== 'boolean')
     badMessage(`extended is ${shown(extended)}, must be true or left out`)
   if (!isWithin(file, files)) badMessage(`file is ${shown(file)}, must be 0 to ${files}`)
   const last = registers ? pages * PAGE - 1 : PAGE - 1
-  if (!isWithin(address, last)) badMessage(`address is ${shown(address)}, must be 0 to ${octal(last)} octal`)
+  if (!isWithin(address, last)) badMessage(`address is ${shown(address)}, must be 0 to ${octal(last, 6)} octal`)
   if (!registers) return { fileNumber: file, byte: address }
-  return { fileNumber: 1 + Math.floor(address / PAGE), byte: address % PAGE }
+  const page = pageOfRegisters(address)
+  return { fileNumber: page.file, byte: page.address }
 }
 
 /**
@@ -91,7 +91,7 @@ export function placeOf({ fileNumber, fileAddress }: StoredAddress, notation: Ad
   const { bytes, lastPage } = notations[notation]
   const byte = fileAddress * bytes
   if (fileNumber > lastPage || byte >= PAGE) return undefined
-  if (fileNumber > 0) return { file: 1, address: (fileNumber - 1) * PAGE + byte, extended: true }
+  if (fileNumber > 0) return registersOfPage(fileNumber, byte)
   return bytes === 1 ? { file: 0, address: byte } : undefined
 }
 
@@ -140,19 +140,15 @@ function takesOf(notation: AddressNotation): string {
 export function placeText(place: ParameterAddress): string {
   if (isStored(place)) return storedText(place)
   const { file, address, extended } = place
-  return `file ${hex(file)}, byte ${octal(address, extended === true && file === 1 ? 8 : 6)} octal`
+  return `file ${hex(file)}, byte ${octal(address, extended === true && file === FILE_REGISTERS ? 8 : 6)} octal`
 }
 
 function storedText({ fileNumber, fileAddress }: StoredAddress): string {
-  return `file number ${hex(fileNumber, 2)}H, file address ${octal(fileAddress)} octal`
+  return `file number ${hex(fileNumber, 2)}H, file address ${octal(fileAddress, 6)} octal`
 }
 
 function lastByte(page: number): string {
   return `00000000 to ${octal(page * PAGE - 1, 8)}`
-}
-
-function octal(value: number, digits = 6): string {
-  return value.toString(8).padStart(digits, '0')
 }
 
 function isWithin(value: number, last: number): boolean {

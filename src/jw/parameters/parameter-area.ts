@@ -1,5 +1,6 @@
 // The parameters of an option unit as COM 02H and 12H reach them, and the rule of the start switch (JW300 option unit manual,
 // "Parameter setting", "Parameters" of each unit). Addresses are octal, as the manual prints them.
+import { octal } from '../../basics/octal'
 import { isPlainObject } from '../../basics/option-checks'
 import { shown } from '../../basics/show'
 import { sumOf } from '../../codec/codec'
@@ -34,7 +35,7 @@ export interface ParameterBlock {
 
 /** A parameter address as the manual prints it. */
 export function parameterText(address: number): string {
-  return address.toString(8).padStart(4, '0')
+  return octal(address, 4)
 }
 
 /**
