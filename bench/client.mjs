@@ -17,11 +17,16 @@ async function startServer() {
   return { ports, stop: () => server.kill() }
 }
 
-/** Sends `request` and waits for as many bytes as the answer has; looks at none of them. */
+/** Sends requests and waits for as many bytes as each answer has; looks at none of them. */
 class Bare {
   #chunks = []
   #missing = 0
   #done = () => {}
+  #send
+
+  constructor(send) {
+    this.#send = send
+  }
 
   received(chunk) {
     this.#chunks.push(chunk)
@@ -29,13 +34,27 @@ class Bare {
     if (this.#missing === 0) this.#done(this.#chunks)
   }
 
-  exchange(answerLength, send) {
+  /** @returns the chunks of the answer */
+  exchange({ request, answerLength }) {
     return new Promise((resolve) => {
       this.#chunks = []
       this.#missing = answerLength
       this.#done = resolve
-      send()
+      this.#send(request)
     })
+  }
+
+  /** One after another, as the client does. */
+  async #each(exchanges) {
+    const answers = []
+    for (const one of exchanges) answers.push(await this.exchange(one))
+    return answers
+  }
+
+  /** What does all of them: of a single one with nothing around it. */
+  all(exchanges) {
+    const [only] = exchanges
+    return exchanges.length === 1 ? () => this.exchange(only) : () => this.#each(exchanges)
   }
 }
 
@@ -58,50 +77,44 @@ function numbersIn(bytes, low, high) {
   return numbers
 }
 
-async function bareTcp(port, { request, answerLength }) {
+async function bareTcp(port, exchanges) {
   const socket = connect(port, HOST)
   socket.setNoDelay(true)
   await once(socket, 'connect')
-  const bare = new Bare()
+  const bare = new Bare((request) => socket.write(request))
   socket.on('data', (chunk) => bare.received(chunk))
-  return {
-    exchange: () => bare.exchange(answerLength, () => socket.write(request)),
-    close: () => socket.destroy(),
-  }
+  return { exchange: bare.all(exchanges), close: () => socket.destroy() }
 }
 
-async function bareUdp(port, { request, answerLength }) {
+async function bareUdp(port, exchanges) {
   const socket = createSocket('udp4')
   socket.connect(port, HOST)
   await once(socket, 'connect')
-  const bare = new Bare()
+  const bare = new Bare((request) => socket.send(request))
   socket.on('message', (chunk) => bare.received(chunk))
-  return {
-    exchange: () => bare.exchange(answerLength, () => socket.send(request)),
-    close: () => socket.close(),
-  }
+  return { exchange: bare.all(exchanges), close: () => socket.close() }
 }
 
-/** The bytes the client really sends for a call, and the length of what comes back. */
-async function bytesOf(client, call) {
-  const sent = []
-  let received = 0
-  const stop = client.on('trace', (entry) => {
-    if (entry.direction === 'sent') sent.push(entry.bytes)
-    else received += entry.bytes.length
+/** The requests the client really sends for a call, and the length of what comes back to each. */
+async function exchangesOf(client, call) {
+  const exchanges = []
+  const stop = client.on('trace', ({ direction, bytes }) => {
+    if (direction === 'sent') exchanges.push({ request: bytes, answerLength: 0 })
+    else exchanges.at(-1).answerLength += bytes.length
   })
   await call()
   stop()
-  return { request: Buffer.concat(sent), answerLength: received }
+  return exchanges
 }
 
 const COLUMNS = ['CPU us/call', 'calls/s', 'of bare', 'CPU ratio']
 
 /** The bare socket does less than any program that uses what it reads; the row below it does what the simplest one must. */
 async function compareWithBare({ exchange, close }, name, { code, ...how }, alternatives) {
+  const read = ([first, ...rest]) => byHand[code](rest.length === 0 ? first : Buffer.concat([first, ...rest]))
   const numbers = async () => {
-    const [first, ...rest] = await exchange()
-    return byHand[code](rest.length === 0 ? first : Buffer.concat([first, ...rest]))
+    const answer = await exchange()
+    return Array.isArray(answer[0]) ? answer.flatMap(read) : read(answer)
   }
   const cost = await compare({ 'bare socket': exchange, 'bare, numbers read by hand': numbers, ...alternatives }, how)
   close()
@@ -122,7 +135,7 @@ async function benchTcp(port, code, { withBlocks }) {
       calls['prepared, 100 scattered items'] = () => plan.run()
     }
     for (const [name, call] of Object.entries(calls)) {
-      const bare = await bareTcp(port, await bytesOf(client, call))
+      const bare = await bareTcp(port, await exchangesOf(client, call))
       await compareWithBare(bare, name, { code }, { client: call })
     }
     if (withBlocks) await benchMemory(client)
@@ -145,7 +158,7 @@ async function benchUdp(port, what, how) {
     for (const client of Object.values(clients)) await client.connect()
     title(`Loopback UDP, 3E binary, one word, ${what}`, ...COLUMNS)
     const [first] = Object.values(clients)
-    const bare = await bareUdp(port, await bytesOf(first, () => first.read('D100')))
+    const bare = await bareUdp(port, await exchangesOf(first, () => first.read('D100')))
     const alternatives = Object.entries(clients).map(([name, client]) => [name, () => client.read('D100')])
     await compareWithBare(bare, 'one word', { code: 'binary', ...how }, Object.fromEntries(alternatives))
   } finally {
