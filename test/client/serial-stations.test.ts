@@ -46,6 +46,7 @@ class Stations {
   readonly connections: Connection[] = []
   readonly #protocol = protocolOf(0)
   #busyUntil = 0
+  #peer: ServerConnection | undefined
 
   constructor(recovery: Partial<RecoveryOptions> = {}) {
     this.memory = listenMemory({ kind: 'stream', delivery: 'manual' }, (peer) => this.#accept(peer))
@@ -67,6 +68,7 @@ class Stations {
 
   #accept(peer: ServerConnection): void {
     const responder = new Responder(framing, 'stream', () => undefined)
+    this.#peer = peer
     peer.onReceived = (bytes) => {
       const sent = Math.max(this.clock.now(), this.#busyUntil) + bytes.length * BYTE_TIME
       this.#busyUntil = sent
@@ -86,6 +88,10 @@ class Stations {
         this.#answer(peer, responder.answer(frame, 0, this.#protocol.writeResponse(request, response)), sent + SCAN)
       }
     }
+  }
+
+  unplug(): void {
+    this.#peer?.reset()
   }
 
   /** The characters come one after another, as an adapter hands them over. */
@@ -330,4 +336,43 @@ test('the pause between an answer and the next request is kept, between stations
   expect(pauses).toHaveLength(2)
   for (const pause of pauses) expect(pause).toBeCloseTo(gap, 0)
   stations.close()
+})
+
+describe('a line that is lost, as when an adapter is pulled out', () => {
+  test('ends each call once, is tried at a bounded rate, and is there for all with the first that opens it', async () => {
+    const stations = new Stations()
+    const all = Array.from({ length: 16 }, (_, i) => stations.station(i))
+    for (const { connection } of all) new Tracked(connection.connect())
+    await stations.pass(5000)
+    expect([stations.opened.length, ...all.map(({ connection }) => connection.state.name)]).toEqual([
+      1,
+      ...all.map(() => 'connected'),
+    ])
+    const calls = all.map(({ write }) => write())
+    await stations.pass(20)
+    stations.memory.refuse = true
+    stations.unplug()
+    await stations.pass(3000)
+    expect(calls.map(({ settled }) => settled)).toEqual(calls.map(() => 1))
+    expect(calls.filter(({ told }) => told !== 'OFFLINE notSent').map(({ told }) => told)).toEqual([
+      'DISCONNECTED unknown',
+    ])
+    await stations.pass(120_000)
+    const times = stations.opened.slice(1)
+    for (const [at, time] of times.slice(1).entries()) expect(time - (times[at] ?? 0)).toBeGreaterThanOrEqual(250)
+    expect(times.length).toBeLessThan(200)
+    stations.memory.refuse = false
+    const before = stations.opened.length
+    for (let i = 0; i < 30 && all.some(({ connection }) => connection.state.name !== 'connected'); i++)
+      await stations.pass(1000)
+    expect([stations.opened.length - before, all.map(({ connection }) => connection.generation)]).toEqual([
+      1,
+      all.map(() => 2),
+    ])
+    const reads = all.map(({ read }) => read())
+    await stations.pass(3000)
+    expect(reads.map(({ told }) => told)).toEqual(all.map((_, station) => ({ values: [station] })))
+    stations.close()
+    expect([stations.line.isOpen, stations.clock.pending]).toEqual([false, 0])
+  })
 })

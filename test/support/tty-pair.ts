@@ -9,8 +9,10 @@ export interface TtyPair {
   close(): Promise<void>
 }
 
-export async function ttyPair(): Promise<TtyPair> {
-  const socat = spawn('socat', ['-d', '-d', 'pty,raw,echo=0', 'pty,raw,echo=0'], {
+/** @param link a path that leads to the near port as long as it is there, as adapters have one that stays */
+export async function ttyPair(link?: string): Promise<TtyPair> {
+  const near = link === undefined ? 'pty,raw,echo=0' : `pty,raw,echo=0,link=${link}`
+  const socat = spawn('socat', ['-d', '-d', near, 'pty,raw,echo=0'], {
     stdio: ['ignore', 'ignore', 'pipe'],
   })
   const ended = once(socat, 'close')
@@ -26,10 +28,10 @@ export async function ttyPair(): Promise<TtyPair> {
     )
     ended.then(() => reject(new Error(`socat ended: ${told}`)), reject)
   })
-  const [near, far] = names
-  if (near === undefined || far === undefined) throw new Error('socat made no pair of ports')
+  const [first, far] = names
+  if (first === undefined || far === undefined) throw new Error('socat made no pair of ports')
   return {
-    near,
+    near: link ?? first,
     far,
     async close() {
       socat.kill()

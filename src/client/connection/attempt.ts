@@ -185,6 +185,11 @@ export class Attempt implements LineUser {
     this.#opening.correct()
   }
 
+  /** Whether the line has ended or could not be opened, and not this attempt alone. */
+  get isLineLost(): boolean {
+    return this.#ends !== undefined || !this.#isOpen
+  }
+
   /** Whether another attempt would end for the same reason. */
   isFinal(reason: PlcError): boolean {
     return this.#opening.isFinal(reason)

@@ -34,6 +34,7 @@ export class Connection {
   #since: number
   #generation = 0
   #finishing: Promise<void> | undefined
+  #endWaiting: (() => void) | undefined
   /** Set by the owner to see every frame; costs nothing while unset. */
   onTrace: ((frame: TracedFrame) => void) | undefined
 
@@ -229,6 +230,7 @@ export class Connection {
   close(): void {
     if (this.#supervisor.name === 'closed') return
     this.#supervisor.close()
+    this.#endWaiting?.()
     this.#alarm.cancel()
     const attempt = this.#attempt
     const held = this.#held
@@ -249,6 +251,7 @@ export class Connection {
   }
 
   #open(): void {
+    this.#endWaiting?.()
     this.#counters.counts.connects += 1
     const attempt = new Attempt(this.#options, this.#line, this.#owner, this.#probing.next)
     this.#attempt = attempt
@@ -289,6 +292,7 @@ export class Connection {
     } else this.#supervisor.lost(error, this.#clock.now(), pause, absentFor !== undefined)
     if (attempt?.isOpen === true) this.#counters.counts.disconnects += 1
     attempt?.end((call, sent) => this.#handedBack(call, sent, error))
+    if (attempt?.isLineLost === true) this.#waitForLine()
     if (!this.#supervisor.hopeful) {
       const held = this.#held
       this.#held = []
@@ -296,6 +300,16 @@ export class Connection {
     }
     this.#tellState()
     this.#schedule()
+  }
+
+  /** Whoever shares the line may open it before the next attempt. */
+  #waitForLine(): void {
+    this.#endWaiting?.()
+    this.#endWaiting = this.#line.whenOpen(() =>
+      this.#guard(() => {
+        if (this.#supervisor.hurry()) this.#open()
+      }),
+    )
   }
 
   /**

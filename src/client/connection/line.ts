@@ -72,6 +72,9 @@ export interface LineUser {
 /** The most of the time of a line that is spent on PLCs that are not there, while others use it. */
 const SHARE_OF_ABSENT = 1 / 10
 
+/** ms between two attempts to open a line that can recover, whoever makes them: an adapter that was pulled out comes back when it likes. */
+const BETWEEN_ATTEMPTS = 250
+
 /** Characters of the longest answer of the manuals (960 words in ASCII code), where nobody knows it before. */
 const LONGEST_ANSWER = 3872
 
@@ -98,6 +101,10 @@ export class Line {
   #peer = 'the PLC'
   /** Until then the time for PLCs that are not there is spent. */
   #absentUntil = 0
+  /** Why it could not be opened last, and when. */
+  #failed: { readonly error: PlcError; readonly at: number } | undefined
+  /** Told when it is open. */
+  readonly #waiting = new Set<() => void>()
 
   constructor(options: LineOptions) {
     const { clock, framing, proof, random, timeout } = options
@@ -181,15 +188,28 @@ export class Line {
     return this.#alone === user
   }
 
+  /** Who waits because the line was lost is told when another has opened it. @returns what ends the waiting */
+  whenOpen(run: () => void): () => void {
+    this.#waiting.add(run)
+    return () => this.#waiting.delete(run)
+  }
+
   /**
    * Uses the line from now on: opens it, when it is not.
-   * @throws what the transport throws when it cannot be made or opened
+   * @throws what the transport throws when it cannot be made or opened, also what it threw just before
    */
   join(user: LineUser): void {
+    if (this.#carrier === undefined) this.#refuseStorm()
     this.#users.add(user)
     this.#countUsers()
     if (this.#carrier === undefined) this.#open()
     else if (this.isOpen) user.opened()
+  }
+
+  /** Each of those who share it tries by itself. */
+  #refuseStorm(): void {
+    if (!this.canRecover || this.#failed === undefined) return
+    if (this.#options.clock.now() - this.#failed.at < BETWEEN_ATTEMPTS) throw this.#failed.error
   }
 
   /** Uses it no more; the last one closes it. @returns what was on the line of this user */
@@ -244,8 +264,12 @@ export class Line {
     const options = recovery === undefined ? given : { ...given, recovery }
     carrier.session = new Session<Call>(framing, options, this.#fenceFor(transport))
     carrier.session.begin(clock.now())
+    this.#failed = undefined
     for (const user of [...this.#users]) if (this.#users.has(user)) user.opened()
     this.flush()
+    const waiting = [...this.#waiting]
+    this.#waiting.clear()
+    for (const run of waiting) run()
   }
 
   /** Where a late answer can come to the port of the next request, also one of the program before. */
@@ -335,6 +359,7 @@ export class Line {
 
   #lose(error: PlcError | undefined): void {
     const users = [...this.#users]
+    if (error !== undefined && !this.isOpen) this.#failed = { error, at: this.#options.clock.now() }
     const { ends, others } = this.#end()
     this.#users.clear()
     this.#countUsers()

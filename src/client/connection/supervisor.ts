@@ -116,6 +116,13 @@ export class Supervisor {
     this.#useful = true
   }
 
+  /** What the next attempt waits for is there. @returns whether the shell must open a transport now */
+  hurry(): boolean {
+    if (this.nextAttempt === undefined) return false
+    this.#connect()
+    return true
+  }
+
   /** What made further attempts pointless has been corrected. @returns whether the shell must open a transport now. */
   retry(): boolean {
     if (!this.givenUp) return false
