@@ -86,6 +86,7 @@ export interface LineSettings {
   readonly format: SerialFormat
   readonly sumCheck: boolean
   readonly sumOfAck: boolean
+  readonly errorDigits: 2 | 4 | undefined
   readonly framings: ReadonlyMap<SerialFrameName, SerialFraming>
   readonly stations: ReadonlyMap<number, StationSettings>
   readonly serial: SerialOptions | undefined
@@ -161,6 +162,7 @@ export function lineSettingsOf(options: LineSimulatorOptions): LineSettings {
     format,
     sumCheck,
     sumOfAck: serialFrame.sumOfAck ?? false,
+    errorDigits: serialFrame.errorDigits,
     framings: framingsOf(options, format),
     stations: stationsOf(options, format),
     serial,

@@ -1,7 +1,7 @@
 // A simulated serial line with several stations: on a serial port of this computer, behind a device server (TCP), in memory.
 import { ClosedError, type ConnectionError, RequestError } from '../errors'
 import type { RequestFrame } from '../link/link'
-import { allStations, type SerialFrameName, type SerialHead } from '../melsec/frame/serial-frames'
+import { allStations, factsOfSerial, type SerialFrameName, type SerialHead } from '../melsec/frame/serial-frames'
 import type { Profile } from '../melsec/profiles/profile'
 import { type ChannelDevices, fx5Channels } from '../melsec/serial-channels'
 import type { Clock } from '../transport/clock'
@@ -131,6 +131,8 @@ class Line implements LineSimulator {
       say: (bytes) => this.#wire.say(bytes),
       end: (connection, how) => this.#hosts.get(connection)?.peer[how](),
       noise: (bytes, ms) => this.#after(ms, () => this.#wire.say(bytes)),
+      highestCode: (frame) =>
+        (settings.errorDigits ?? factsOfSerial(frame).errorDigits) === 2 && format !== 5 ? 0xff : 0xffff,
       sumAt: (answer) => sumAt(answer, { format, sumCheck, sumOfAck: settings.sumOfAck }),
       observe: (event) => this.#events.emit('request', event),
     }
@@ -381,10 +383,7 @@ function stationOf(number: number, { settings, channel }: StationSettings, line:
 }
 
 /** Where a family is told of its channels; FX3 has them under names of its own, for two channels. */
-function channelOf(
-  { serial, aCompatible }: Profile,
-  channel: StationSettings['channel'],
-): Pick<ChannelDevices, 'globalSignal' | 'mcProtocol'> | undefined {
+function channelOf({ serial, aCompatible }: Profile, channel: StationSettings['channel']): ChannelDevices | undefined {
   if (serial?.channels !== undefined) return serial.channels.devices[channel]
   if (aCompatible?.calledAsInFrame !== true || channel > 2) return undefined
   return fx5Channels.fx3.channels[channel === 1 ? 1 : 2]

@@ -1,7 +1,7 @@
 // The PLC behind the wire: what it answers to a request, without frames, connections or time.
 import type { Message } from '../codec/codec'
 import type { CommandName } from '../melsec/commands/commands'
-import type { DeviceName } from '../melsec/device/device'
+import type { DeviceAddress } from '../melsec/device/device'
 import type { Route } from '../melsec/frame/route'
 import type { Profile } from '../melsec/profiles/profile'
 import type { ReceivedRequest, SlmpCommandSet } from '../melsec/protocol'
@@ -142,8 +142,13 @@ export class Plc {
   }
 
   /** Sets a bit device, as the system of the CPU does. */
-  setRelay(device: DeviceName, number: number, on: boolean): void {
-    this.#devices.writeBits({ device, number }, [on])
+  setRelay(relay: DeviceAddress, on: boolean): void {
+    this.#devices.writeBits(relay, [on])
+  }
+
+  /** The same of a word device. */
+  setRegister(register: DeviceAddress, word: number): void {
+    this.#devices.writeWords(register, [word])
   }
 
   /** Power goes off: everything that is not latched is lost. */

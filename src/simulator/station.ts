@@ -74,6 +74,8 @@ export interface SharedLine {
   /** Ends the connection of a host. */
   readonly end: (connection: number, how: 'close' | 'reset') => void
   readonly noise: (bytes: Buffer, ms: number) => void
+  /** The highest code that NAK has digits for. */
+  readonly highestCode: (frame: SerialFrameName) => number
   /** Where the last character of an answer's sum check code is. */
   readonly sumAt: (answer: Buffer) => number | undefined
   readonly observe: (event: RequestEvent) => void
@@ -83,7 +85,7 @@ export interface StationParts {
   readonly number: number
   readonly settings: SimulatorSettings
   /** Of the serial channel the line is at: what it tells in special relays. */
-  readonly channel: Pick<ChannelDevices, 'globalSignal' | 'mcProtocol'> | undefined
+  readonly channel: ChannelDevices | undefined
   readonly line: SharedLine
 }
 
@@ -129,7 +131,10 @@ export class Station implements SimulatedStation {
     this.#plc = new Plc({
       ...settings,
       now: () => fileClock(clock.time()),
-      changed: (change) => this.#events.emit('state', change),
+      changed: (change) => {
+        if (change.state === 'RUN') this.#tellNoError()
+        this.#events.emit('state', change)
+      },
       cleared: (scope) => this.#events.emit('clear', { scope }),
       restart: () => this.restart(),
     })
@@ -234,7 +239,13 @@ export class Station implements SimulatedStation {
     const framing = this.#parts.line.framings.get(frame)
     if (endCode === undefined || framing === undefined) return
     this.#parts.line.counters.refusals++
-    this.#parts.line.say(framing.response.write(head, 0, endCode, Buffer.alloc(0)))
+    this.#parts.line.say(framing.response.write(head, 0, this.#sayable(frame, endCode), Buffer.alloc(0)))
+  }
+
+  /** Where NAK has two digits only, the last two of a longer code: what a PLC would do is in no manual. */
+  #sayable(frame: SerialFrameName, endCode: number): number {
+    const highest = this.#parts.line.highestCode(frame)
+    return endCode <= highest ? endCode : endCode & highest || highest
   }
 
   #newSequence(): Sequence<Work> {
@@ -270,9 +281,8 @@ export class Station implements SimulatedStation {
 
   /** NAK of a fault switch. One that the frame has no digits for does not meet it. */
   #forced(work: Work): Answer | undefined {
-    const digits = work.request.frame === '1C' ? 0xff : 0xffff
     const forced = this.#switches.peek('endCode', work)
-    if (forced === undefined || forced.endCode > digits) return undefined
+    if (forced === undefined || forced.endCode > this.#parts.line.highestCode(work.request.frame)) return undefined
     this.#switches.take('endCode', work)
     return { kind: 'refused', endCode: forced.endCode, message: 'fault switch' }
   }
@@ -291,14 +301,14 @@ export class Station implements SimulatedStation {
 
   #globalSignal(on: boolean): Answer {
     const { channel } = this.#parts
-    if (channel !== undefined) this.#plc.setRelay(channel.globalSignal.device, channel.globalSignal.number, on)
+    if (channel !== undefined) this.#plc.setRelay(channel.globalSignal, on)
     return { kind: 'data', body: Buffer.alloc(0) }
   }
 
   /** The channel is set to MC protocol. */
   #tellMode(): void {
     const { channel } = this.#parts
-    if (channel !== undefined) this.#plc.setRelay(channel.mcProtocol.device, channel.mcProtocol.number, true)
+    if (channel !== undefined) this.#plc.setRelay(channel.mcProtocol, true)
   }
 
   #frame(work: Work, answer: Exclude<Answer, { kind: 'none' }>): Buffer {
@@ -317,7 +327,7 @@ export class Station implements SimulatedStation {
           }
     const isData = answer.kind === 'data'
     const body = isData ? answer.body : this.port.errorInformation(work.request)
-    const bytes = framing.response.write(head, 0, isData ? 0 : answer.endCode, body)
+    const bytes = framing.response.write(head, 0, isData ? 0 : this.#sayable(frame, answer.endCode), body)
     const at = sumAt(bytes)
     const wrong = at !== undefined && this.#switches.take('wrongSum', work) !== undefined
     return wrong ? withWrongSum(bytes, at) : bytes
@@ -345,7 +355,21 @@ export class Station implements SimulatedStation {
     this.#parts.line.observe(event)
   }
 
+  /** A CPU that goes to RUN has forgotten the errors of its channels (18.8). */
+  #tellNoError(): void {
+    const { channel } = this.#parts
+    if (channel === undefined) return
+    this.#plc.setRelay(channel.error, false)
+    this.#plc.setRegister(channel.errorCode, 0)
+  }
+
+  /** SM8500 and SD8500 of the channel tell, too. */
   #log(endCode: number, message: string, { remote }: Host): void {
+    const { channel } = this.#parts
+    if (channel !== undefined && endCode !== 0) {
+      this.#plc.setRelay(channel.error, true)
+      this.#plc.setRegister(channel.errorCode, endCode)
+    }
     this.errors.add({ time: this.clock.time(), endCode, remote, message })
   }
 }

@@ -230,6 +230,24 @@ describe('a damaged request', () => {
     },
   )
 
+  test('is told by special devices of the channel, until the CPU goes to RUN again', () => {
+    const { line, host } = aLine({ messageFormat: 4, stations: { 0: { channel: 2 } } })
+    const told = () => ['SM8513', 'SM8510', 'SD8510:WORD'].map((item) => line.station(0).read(item))
+    expect(told()).toEqual([true, false, 0])
+    host.ask('3C', 0, '09990000')
+    expect(told()).toEqual([true, true, 0x7e40])
+    host.ask('1C', 0, 'RS0')
+    host.ask('1C', 0, 'RR0')
+    expect(told()).toEqual([true, false, 0])
+  })
+
+  test('where NAK has two digits in 3C, too, they are the last ones of the code', () => {
+    const { host } = aLine({ serialFrame: { errorDigits: 2 } })
+    expect(host.ask('3C', 0, '09990000')).toBe('<NAK>F90000FF0040')
+    const four = aLine({ serialFrame: { errorDigits: 4 } })
+    expect(four.host.ask('1C', 0, 'XX0')).toBe('<NAK>00FF0003')
+  })
+
   test('another start code begins anew, and nobody answers what went before', () => {
     const { host, request } = aLine()
     host.send(Buffer.concat([request('1C', 0, 'WR0D000001').subarray(0, 9), request('1C', 0, 'PC0')]))
