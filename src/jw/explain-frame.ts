@@ -19,6 +19,7 @@ import type { JwAddress } from './address'
 import { jwCommands } from './commands/commands'
 import { markerForms } from './commands/data-memory'
 import { HEADER_LENGTH, ID, relayIn } from './header'
+import { timerAttributes } from './operand/timer'
 import { explainResultCode } from './result-codes/explain'
 
 /** What is known of a JW message. */
@@ -80,6 +81,7 @@ function describeJw({ name: path, field: of, value }: Leaf): string | undefined 
 
 function wordsOf(name: string, value: unknown): string | undefined {
   if (isAddress(value)) return addressText(value)
+  if (name === 'attributes' && Buffer.isBuffer(value)) return attributesText(value)
   if (typeof value !== 'number') return undefined
   switch (name) {
     case 'id':
@@ -107,6 +109,15 @@ function resultText(code: number): string {
   if (code === 0) return '00H (carried out)'
   const meaning = explainResultCode(code)?.meaning ?? 'no text is known for this code'
   return `${hex(code, 2)}H (refused: ${meaning.replace(/\.$/, '')})`
+}
+
+/** What each timer or counter of the answer is: `08H DTMR (BCD)`. */
+function attributesText(attributes: Buffer): string {
+  const titles = Array.from(attributes, (attribute) => {
+    const { title } = timerAttributes[attribute] ?? { title: 'not printed' }
+    return `${hex(attribute, 2)}H ${title}`
+  })
+  return titles.join(', ')
 }
 
 function isAddress(value: unknown): value is JwAddress {

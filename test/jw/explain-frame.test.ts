@@ -116,6 +116,13 @@ describe('words', () => {
     )
   })
 
+  test('say what each timer and counter of an answer is', () => {
+    const request = Buffer.from('470023' + '00000300', 'hex')
+    const answer = Buffer.from('45002300' + '00000300' + '349278D60100' + '080A03', 'hex')
+    const { rows } = explainJwFrame(answer, { request })
+    expect(rows.at(-1)?.text).toBe('08H DTMR (BCD), 0AH UTMR (BCD), 03H not printed')
+  })
+
   test.each(['4700fc0041423132', '4700fc00414231', '4700fc004142312d', '4700fc0341423132'])(
     'of %s never show the password',
     (hex) => {
