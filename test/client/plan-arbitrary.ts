@@ -49,6 +49,24 @@ export const modifiedText: fc.Arbitrary<string> = fc.oneof(
   fc.tuple(number, fc.constantFrom('', ':DINT', '.3', 'Z1')).map(([at, end]) => `@D${at}${end}`),
 )
 
+const joined = (...parts: fc.Arbitrary<string | number>[]) => fc.tuple(...parts).map((all) => all.join(''))
+const near = fc.oneof(fc.nat(30), fc.nat(120), fc.nat(700))
+
+/** A few items of an FX5 that lie near enough to one another to share requests in many ways. */
+export const fx5Items: fc.Arbitrary<string[]> = fc.array(
+  fc.oneof(
+    joined(
+      fc.constantFrom('D', 'D', 'R'),
+      near,
+      fc.constantFrom('', ':DINT', ':LREAL'),
+      fc.constantFrom('', '', '', '[2]', '[5]', '[17]', '[33]'),
+    ),
+    joined(fc.constant('M'), near, fc.constantFrom('', '', '[3]', '[20]')),
+    joined(fc.constantFrom('K4M', 'K8M'), near),
+  ),
+  { minLength: 1, maxLength: 7 },
+)
+
 /** Words, to be compared as they stand: a not-a-number is not equal to itself. */
 export function expectedValue(plc: PlanPlc, item: ParsedItem): PlcValue | PlcValue[] {
   const { type, format, count } = item

@@ -9,7 +9,7 @@ import { planWrite } from '../../src/client/plan/write'
 import { TimeoutError } from '../../src/errors'
 import type { Exchange } from '../../src/link/link'
 import { profiles } from '../../src/melsec/profiles/profiles'
-import { itemText as anyItem, expectedValue, modifiedText } from './plan-arbitrary'
+import { expectedValue, fx5Items, itemText, modifiedText } from './plan-arbitrary'
 import { goodValue, PlanPlc } from './plan-plc'
 import { characterCost, leastReading, leastWriting } from './plan-search'
 import { over1c, overSerial, smallFx5 } from './serial-protocols'
@@ -62,17 +62,6 @@ function valueFor({ type, count }: ParsedItem, seed: number): PlainValue {
   return Array.from({ length: count }, (_, i) => one(i)) as PlainValue
 }
 
-const number = fc.oneof(fc.nat(30), fc.nat(120), fc.nat(700))
-const count = fc.constantFrom('', '', '', '[2]', '[5]', '[17]', '[33]')
-const joined = (...parts: fc.Arbitrary<string | number>[]) => fc.tuple(...parts).map((all) => all.join(''))
-
-const itemText: fc.Arbitrary<string> = fc.oneof(
-  joined(fc.constantFrom('D', 'D', 'R'), number, fc.constantFrom('', ':DINT', ':LREAL'), count),
-  joined(fc.constant('M'), number, fc.constantFrom('', '', '[3]', '[20]')),
-  joined(fc.constantFrom('K4M', 'K8M'), number),
-)
-const itemTexts = fc.array(itemText, { minLength: 1, maxLength: 7 })
-
 const frames: Readonly<Record<string, PlanProtocol>> = {
   '1C format 1': over1c(),
   '1C format 4 without sum': over1c(4, false),
@@ -85,7 +74,7 @@ const frames: Readonly<Record<string, PlanProtocol>> = {
 describe('reading costs the fewest characters that any distribution over requests does', () => {
   test.each(Object.entries(frames))('%s', async (_name, protocol) => {
     await fc.assert(
-      fc.asyncProperty(itemTexts, fc.constantFrom(GAP, 3, 0), async (texts, gap) => {
+      fc.asyncProperty(fx5Items, fc.constantFrom(GAP, 3, 0), async (texts, gap) => {
         const least = leastReading(parsed(texts), protocol, gap)
         // An item that no request holds is cut, which is not tried.
         fc.pre(Number.isFinite(least))
@@ -106,7 +95,7 @@ describe('where Read Random and Read Block are too small for what would go into 
   test.each(Object.entries(small))('less than a request more is sent: %s', async (_name, protocol) => {
     const request = await readPrice(['D0'], protocol)
     await fc.assert(
-      fc.asyncProperty(itemTexts, async (texts) => {
+      fc.asyncProperty(fx5Items, async (texts) => {
         const least = leastReading(parsed(texts), protocol, GAP)
         fc.pre(Number.isFinite(least))
         const price = await readPrice(texts, protocol)
@@ -123,7 +112,7 @@ describe('values', () => {
     ['binary', overSerial('4C', 5, true, profiles['iq-r-c24'])],
     ['ascii', overSerial('3C', 1, true, profiles['iq-r-c24'])],
   ])('are those of the devices, whatever the plan: %s', async (_name, protocol) => {
-    const texts = fc.array(fc.oneof(anyItem, anyItem, modifiedText), { minLength: 1, maxLength: 40 })
+    const texts = fc.array(fc.oneof(itemText, itemText, modifiedText), { minLength: 1, maxLength: 40 })
     await fc.assert(
       fc.asyncProperty(texts, fc.nat(100), async (given, gap) => {
         const plc = new PlanPlc(protocol)
