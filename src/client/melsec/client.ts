@@ -7,6 +7,7 @@ import type { ProfileInfo } from '../../melsec/profiles/profile'
 import type { ExchangeOptions } from '../../melsec/protocol'
 import type { CallOptions } from '../connection/call'
 import type { Files } from '../file/files'
+import type { MelsecItems } from '../item/item-typing'
 import type { ItemResults } from '../item/item-value'
 import type { Item } from '../item/parts'
 import type { ItemExplanation } from '../label/explain'
@@ -25,7 +26,7 @@ import type { MelsecClientOptions } from './options'
  * const plc = createMelsecClient({ host: '192.168.3.39', port: 5007, profile: 'iq-r' })
  * const level = await plc.read('D100:REAL')
  */
-export interface MelsecClient extends PlcClient<ClientEvents> {
+export interface MelsecClient extends PlcClient<ClientEvents, MelsecItems> {
   /** As given, without the password. */
   readonly options: Omit<MelsecClientOptions, 'password'>
   /** The family of PLCs it speaks to, with the overrides merged in. */

@@ -2,7 +2,17 @@
 import type { CallOptions } from '../connection/call'
 import type { ConnectionState } from '../connection/connection-options'
 import type { Statistics } from '../connection/statistics'
-import type { ItemInput, ItemInputs, ItemResults, Items, ItemValue, ItemValues, WriteEntries } from '../item/item-value'
+import type {
+  AnyItems,
+  EntriesIn,
+  InputIn,
+  InputsIn,
+  ItemTyping,
+  ResultsIn,
+  ValueIn,
+  ValuesIn,
+} from '../item/item-typing'
+import type { Items } from '../item/item-value'
 import type { Item } from '../item/parts'
 import type { ReadPlan, WritePlan } from './plans'
 import type { WriteCallOptions, WriteOptions, WriteResult } from './write'
@@ -16,8 +26,9 @@ export interface PlcEvents {
 /**
  * A client of one PLC. It connects at the first call, stays connected in the background, and reconnects by itself until
  * `close()`. Every rejection is a `PlcError`: its `code` says what, its `outcome` whether the PLC may have carried it out.
+ * `T`: how its family of PLCs types items; without it a client of any family, of whose values nothing is known.
  */
-export interface PlcClient<Events extends PlcEvents = PlcEvents> {
+export interface PlcClient<Events extends PlcEvents = PlcEvents, T extends ItemTyping = AnyItems> {
   /** How the connection is now; the event `state` tells each change. */
   readonly state: ConnectionState
   /** Counters and round-trip times since the client was made. */
@@ -46,26 +57,26 @@ export interface PlcClient<Events extends PlcEvents = PlcEvents> {
    * @throws PlcError what went wrong
    * @example await plc.read('D100:REAL')
    */
-  read<const I extends Item>(item: I, options?: CallOptions): Promise<ItemValue<I>>
+  read<const I extends Item>(item: I, options?: CallOptions): Promise<ValueIn<T, I>>
   /** Reads many items as `readEach`. @example const { level, start } = await plc.read({ level: 'D100:REAL', start: 'M0' }) */
-  read<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
+  read<const L extends Items>(items: L, options?: CallOptions): Promise<ResultsIn<T, L>>
   /** Reads many items in few requests, with a result for each: one that cannot be read does not hide the others. */
-  readEach<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
+  readEach<const L extends Items>(items: L, options?: CallOptions): Promise<ResultsIn<T, L>>
   /**
    * Reads many items in few requests and gives plain values.
    * @throws PlcError the first item's error when any item failed
    * @example const { level, temperature } = await plc.readValues({ level: 'D100:REAL', temperature: 'D102:REAL' })
    */
-  readValues<const L extends Items>(items: L, options?: CallOptions): Promise<ItemValues<L>>
+  readValues<const L extends Items>(items: L, options?: CallOptions): Promise<ValuesIn<T, L>>
   /**
    * The requests that read these items: to look at (`describe()`), and to run again and again without parsing.
    * Items that cannot be read keep their error as their result.
    */
-  plan<const L extends readonly Item[]>(items: L): ReadPlan<ItemResults<L>>
+  plan<const L extends readonly Item[]>(items: L): ReadPlan<ResultsIn<T, L>>
 
   /** Writes many items as `writeValues`. @example await plc.write({ 'D200:REAL': 71.5, M10: true }) */
   write<const L extends readonly Item[], A extends string>(
-    values: WriteEntries<L> | ItemInputs<A>,
+    values: EntriesIn<T, L> | InputsIn<T, A>,
     options?: WriteCallOptions,
   ): Promise<void>
   /**
@@ -73,7 +84,7 @@ export interface PlcClient<Events extends PlcEvents = PlcEvents> {
    * @throws PlcError what went wrong
    * @example await plc.write('D200:REAL', 71.5)
    */
-  write<const I extends Item>(item: I, value: ItemInput<I>, options?: WriteCallOptions): Promise<void>
+  write<const I extends Item>(item: I, value: InputIn<T, I>, options?: WriteCallOptions): Promise<void>
   /**
    * Writes many items, in their order. Needs `allowWrites`. When it resolves, everything was written. A write whose outcome
    * is unknown is never repeated.
@@ -81,7 +92,7 @@ export interface PlcClient<Events extends PlcEvents = PlcEvents> {
    * @example await plc.writeValues({ 'D200:REAL': 71.5, M10: true })
    */
   writeValues<const L extends readonly Item[], A extends string>(
-    values: WriteEntries<L> | ItemInputs<A>,
+    values: EntriesIn<T, L> | InputsIn<T, A>,
     options?: WriteCallOptions,
   ): Promise<void>
   /**
@@ -89,11 +100,11 @@ export interface PlcClient<Events extends PlcEvents = PlcEvents> {
    * @example const results = await plc.writeEach({ 'D200:REAL': 71.5, M10: true })
    */
   writeEach<const L extends readonly Item[]>(
-    entries: WriteEntries<L>,
+    entries: EntriesIn<T, L>,
     options?: WriteCallOptions,
   ): Promise<WriteResult[]>
   /** The same of an object by address: the results by address. */
-  writeEach<A extends string>(values: ItemInputs<A>, options?: WriteCallOptions): Promise<Record<A, WriteResult>>
+  writeEach<A extends string>(values: InputsIn<T, A>, options?: WriteCallOptions): Promise<Record<A, WriteResult>>
   /** The requests that write these values: to look at before they are run. */
-  planWrite<const L extends readonly Item[]>(entries: WriteEntries<L>, options?: WriteOptions): WritePlan
+  planWrite<const L extends readonly Item[]>(entries: EntriesIn<T, L>, options?: WriteOptions): WritePlan
 }
