@@ -22,8 +22,10 @@ import { explainLabel, type ItemExplanation } from '../label/explain'
 import { type AnyItem, hasPrefix, isLabel, itemText, labelInstead, parsedLabel } from '../label/in-items'
 import { randomMessage } from '../label/request'
 import { explainItem } from '../plan/explain'
+import type { ItemSource } from '../plan/item-calls'
 import { ItemMonitor, type Monitor, type Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
+import { PreparedPlans } from '../plan/prepared-plans'
 import { planRead } from '../plan/read'
 import { rejecting } from '../plan/rejecting'
 import type { SendExchange } from '../plan/request'
@@ -34,9 +36,6 @@ import { type MixedEntry, MixedWrite } from './mixed-write'
 import type { Settings } from './settings'
 
 const WRITE_OPTIONS: OptionNames<WriteOptions> = { readModifyWrite: true, allOrNothing: true }
-
-/** Plans of `read` that are kept. A program that reads ever new lists must not fill the memory with them. */
-const PREPARED_PLANS = 500
 
 /** What the client lends to its items. */
 export interface ItemParts {
@@ -49,13 +48,11 @@ export interface ItemParts {
   readonly permit: (effect: Exchange<unknown>['effect'], title: string) => void
 }
 
-export class ItemAccess {
+export class ItemAccess implements ItemSource {
   readonly #parts: ItemParts
   readonly #lender: LabelLender
   readonly #itemOptions: ItemParseOptions
-  readonly #prepared = new Map<string, ReadPlan>()
-  /** Of lists of one item, by its text. */
-  readonly #preparedAlone = new Map<string, ReadPlan>()
+  readonly #prepared = new PreparedPlans((items) => this.plan(items))
   /** A monitor of this client is registered, as far as UDP goes: see `#monitorUnusable`. */
   #monitored = false
 
@@ -66,22 +63,8 @@ export class ItemAccess {
     this.#lender = { protocol, format: settings.labelFormat, time: () => settings.clock.time() }
   }
 
-  /** A plan is made once and found again by its texts: programs read the same few lists of items all day. */
   prepare(items: readonly Item[]): Pick<ReadPlan, 'run'> {
-    if (!items.every((item) => typeof item === 'string')) return this.plan(items)
-    const [only] = items
-    if (items.length === 1 && only !== undefined) return this.#kept(this.#preparedAlone, only, items)
-    // Not joined: whatever stood between two texts could also stand in one.
-    return this.#kept(this.#prepared, JSON.stringify(items), items)
-  }
-
-  #kept(plans: Map<string, ReadPlan>, key: string, items: readonly Item[]): ReadPlan {
-    const known = plans.get(key)
-    if (known !== undefined) return known
-    const plan = this.plan(items)
-    if (plans.size >= PREPARED_PLANS) plans.clear()
-    plans.set(key, plan)
-    return plan
+    return this.#prepared.prepare(items)
   }
 
   plan(items: readonly Item[]): ReadPlan {

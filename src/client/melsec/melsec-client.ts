@@ -17,8 +17,7 @@ import { Listeners } from '../connection/listeners'
 import type { Statistics } from '../connection/statistics'
 import { Tracer } from '../connection/trace'
 import { FileAccess, type Files } from '../file/files'
-import { nameResults } from '../item/about'
-import { checkRequest, isItem, isList, namesOf, namesOfItems } from '../item/input-checks'
+import { checkRequest, isItem } from '../item/input-checks'
 import type {
   ItemInput,
   ItemInputs,
@@ -31,10 +30,11 @@ import type {
   WriteValues,
 } from '../item/item-value'
 import type { Item } from '../item/parts'
-import { byName, entriesOf, plainValue } from '../item/plain-values'
+import { entriesOf } from '../item/plain-values'
 import { checkAllWritten } from '../item/write-outcome'
 import type { ItemExplanation } from '../label/explain'
 import { type Labels, labelsOf } from '../label/labels'
+import { optionsOfMany, readEachOf, readItems, readValuesOf, writeEachOf, writeItem } from '../plan/item-calls'
 import { type Monitor, Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
 import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
@@ -57,7 +57,7 @@ import {
 } from './named-request'
 import { checkOnDemand, unsolicitedOf } from './on-demand'
 import type { MelsecClientOptions } from './options'
-import { notPermitted, optionsOfMany, overUdp } from './permission'
+import { notPermitted, overUdp } from './permission'
 import { probesOf } from './probes'
 import { RemotePassword } from './remote-password'
 import type { SendCommand } from './send-command'
@@ -240,28 +240,18 @@ export class MelsecPlcClient implements MelsecClient {
 
   read<const I extends Item>(item: I, options?: CallOptions): Promise<ItemValue<I>>
   read<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
-  async read(items: Item | Items, options?: CallOptions): Promise<unknown> {
-    if (isItem(items)) return plainValue((await this.#items.prepare([items]).run(options))[0])
-    if (!isList(items)) namesOfItems(items, ITEMS)
-    return this.readEach(items, options)
+  read(items: Item | Items, options?: CallOptions): Promise<unknown> {
+    return readItems(this.#items, items, options)
   }
 
   readEach<const L extends Items>(items: L, options?: CallOptions): Promise<ItemResults<L>>
-  async readEach(items: Items, options?: CallOptions): Promise<unknown> {
-    if (isList(items)) return this.#items.prepare(items).run(options)
-    const names = namesOf(items, ITEMS)
-    return byName(names, await this.#named(names, items, options))
+  readEach(items: Items, options?: CallOptions): Promise<unknown> {
+    return readEachOf(this.#items, items, options)
   }
 
   readValues<const L extends Items>(items: L, options?: CallOptions): Promise<ItemValues<L>>
-  async readValues(items: Items, options?: CallOptions): Promise<unknown> {
-    if (isList(items)) return (await this.#items.prepare(items).run(options)).map(plainValue)
-    const names = namesOf(items, ITEMS)
-    return byName(names, (await this.#named(names, items, options)).map(plainValue))
-  }
-
-  async #named(names: readonly string[], items: Readonly<Record<string, Item>>, call?: CallOptions) {
-    return nameResults(await this.#items.prepare(names.map((name) => items[name] as Item)).run(call), names)
+  readValues(items: Items, options?: CallOptions): Promise<unknown> {
+    return readValuesOf(this.#items, items, options)
   }
 
   plan<const L extends readonly Item[]>(items: L): ReadPlan<ItemResults<L>>
@@ -294,8 +284,7 @@ export class MelsecPlcClient implements MelsecClient {
     third?: WriteCallOptions,
   ): Promise<void> {
     if (!isItem(target)) return this.writeValues(target, optionsOfMany(second as WriteCallOptions | undefined, third))
-    const [result] = await this.#items.write([{ item: target, value: second as WriteValue }], third)
-    if (result?.ok === false) throw result.error
+    await writeItem(this.#items, target, second as WriteValue, third)
   }
 
   async writeValues<const L extends readonly Item[], A extends string>(
@@ -310,9 +299,8 @@ export class MelsecPlcClient implements MelsecClient {
     options?: WriteCallOptions,
   ): Promise<WriteResult[]>
   writeEach<A extends string>(values: ItemInputs<A>, options?: WriteCallOptions): Promise<Record<A, WriteResult>>
-  async writeEach(values: WriteValues, options?: WriteCallOptions): Promise<unknown> {
-    const results = await this.#items.write(entriesOf(values), options)
-    return isList(values) ? results : byName(Object.keys(values), results)
+  writeEach(values: WriteValues, options?: WriteCallOptions): Promise<unknown> {
+    return writeEachOf(this.#items, values, options)
   }
 
   planWrite<const L extends readonly Item[]>(entries: WriteEntries<L>, options: WriteOptions = {}): WritePlan {
@@ -401,8 +389,6 @@ export class MelsecPlcClient implements MelsecClient {
     await this.#send(commands.clearError, {}, options)
   }
 }
-
-const ITEMS = 'Items to read are one item, a list of items, or an object of items by name'
 
 /**
  * Makes a client. Nothing is connected before the first call or `connect()`.

@@ -174,8 +174,3 @@ export const OPTION_NAMES = {
   clock: true,
   random: true,
 } as const satisfies Record<keyof MelsecClientOptions, true>
-/** Names of the options of `reconnect`. */
-export const PAUSE_NAMES = { first: true, longest: true } as const satisfies Record<
-  keyof NonNullable<MelsecClientOptions['reconnect']>,
-  true
->

@@ -17,8 +17,17 @@ import {
 import { resolveProfile } from '../../melsec/profiles/profiles'
 import { type Clock, realClock } from '../../transport/clock'
 import { checkFormat, type ValueFormat } from '../../value/value'
+import {
+  checkFunction,
+  checkLocalAddress,
+  checkObject,
+  checkPeer,
+  LONGEST,
+  PAUSE_NAMES,
+  pausesOf,
+} from '../connection/option-checks'
 import type { LabelFormat } from '../label/item'
-import { type MelsecClientOptions, OPTION_NAMES, PAUSE_NAMES } from './options'
+import { type MelsecClientOptions, OPTION_NAMES } from './options'
 import { checkProbe, type ProbeKind, probeKinds } from './probes'
 import type { SerialLine } from './serial-line'
 import { codeOfLine, serialLineFor, serialOf, transportOf } from './serial-settings'
@@ -60,7 +69,6 @@ export interface Settings {
 
 const TIMER_UNIT = 250
 const LONGEST_TIMER = 0xffff * TIMER_UNIT
-const LONGEST = 24 * 60 * 60 * 1000
 
 /** @throws RequestError BAD_OPTION naming the option. */
 export function settle(options: MelsecClientOptions): Settings {
@@ -71,9 +79,7 @@ export function settle(options: MelsecClientOptions): Settings {
   wholeNumber('localPort', options.localPort ?? 0, 0, 65_535)
   checkFunction('openTransport', options.openTransport)
   checkFunction('random', options.random)
-  if (options.localAddress !== undefined && typeof options.localAddress !== 'string') {
-    throw new RequestError('BAD_OPTION', 'localAddress is the address of a network interface, as text.', 'localAddress')
-  }
+  checkLocalAddress(options.localAddress)
   oneOf('asciiZr', options.asciiZr, [undefined, 'decimal', 'hexadecimal'])
   oneOf('asciiWordOrder', options.asciiWordOrder, [undefined, 'low-first', 'high-first'])
   const profile = profileOf(options)
@@ -130,23 +136,6 @@ function labelFormatOf({ format: { encoding, trimSpaces } = {}, asciiWordOrder }
     ...(trimSpaces === undefined ? {} : { trimSpaces }),
     ...(asciiWordOrder === undefined ? {} : { asciiWordOrder }),
   }
-}
-
-function checkObject(field: string, given: object | undefined): void {
-  if (given === undefined || (typeof given === 'object' && given !== null)) return
-  throw new RequestError('BAD_OPTION', `${field} is ${shown(given)}; it must be an object.`, field)
-}
-
-function checkFunction(field: string, given: unknown): void {
-  if (given === undefined || typeof given === 'function') return
-  throw new RequestError('BAD_OPTION', `${field} is ${shown(given)}; it must be a function.`, field)
-}
-
-function checkPeer({ host, port }: MelsecClientOptions): void {
-  if (typeof host !== 'string' || host.trim() === '') {
-    throw new RequestError('BAD_OPTION', 'host is missing: give the address of the PLC, e.g. 192.168.3.39.', 'host')
-  }
-  wholeNumber('port', port, 1, 65_535)
 }
 
 /** A PLC unlocks one peer, and over UDP with 3E the local port would change with every request. */
@@ -222,18 +211,6 @@ function reachable({ title, reach }: Profile, route: Route): Route {
   if (reach.stations === 'networks' || (own && moduleTaken)) return route
   const message = `${title} reaches the connected station only: leave route out (${reach.source}).`
   throw new RequestError('UNSUPPORTED', message, 'route')
-}
-
-/** Pauses between attempts to connect: the first one, doubled up to the longest. */
-function pausesOf({
-  first,
-  longest,
-}: NonNullable<MelsecClientOptions['reconnect']>): Pick<Settings, 'first' | 'longest'> {
-  const most = wholeNumber('reconnect.longest', longest ?? Math.max(30_000, first ?? 0), 1, LONGEST)
-  const least = wholeNumber('reconnect.first', first ?? Math.min(500, most), 1, LONGEST)
-  if (least <= most) return { first: least, longest: most }
-  const message = `reconnect.first is ${least} ms and reconnect.longest ${most} ms: the first pause cannot be longer than the longest.`
-  throw new RequestError('BAD_OPTION', message, 'reconnect.first')
 }
 
 /**

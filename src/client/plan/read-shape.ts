@@ -12,7 +12,15 @@ import type { PackOptions } from './draft'
 import { Areas, type Piece, pieceOf, piecesOf, readLayout } from './layout'
 import type { PlanProtocol } from './limit'
 import { packed } from './pack'
-import { bodyBytes, checkCells, type PreparedRead, prepareRead } from './request'
+import type { LeafOf, PlanShape } from './planned-read'
+import {
+  bodyBytes,
+  checkCells,
+  describePrepared,
+  type PreparedRead,
+  prepareRead,
+  type RequestDescription,
+} from './request'
 import { type Place, placeOf } from './value'
 
 /** The notation is that of descriptions; default: the profile's. */
@@ -31,11 +39,8 @@ export interface ReadStep {
   readonly without: PackOptions['without']
 }
 
-/** A part of a divided request and how it ended. `lost`: it says nothing about its items. */
-export interface Leaf {
-  readonly step: ReadStep
-  readonly outcome: 'read' | 'lost' | EndCodeError
-}
+/** A part of a divided request and how it ended. */
+type Leaf = LeafOf<ReadStep>
 
 /** What a smaller request may escape. A code nobody knows may be about a single item. */
 const MAY_HELP: ReadonlySet<EndCodeAbout> = new Set(['item', 'size', 'unknown'])
@@ -43,7 +48,7 @@ const MAY_HELP: ReadonlySet<EndCodeAbout> = new Set(['item', 'size', 'unknown'])
 /** After so many runs, items that were refused together are tried one by one again: the PLC may have been changed. */
 const TRY_AGAIN = 32
 
-export class ReadShape {
+export class ReadShape implements PlanShape<ReadStep> {
   /** Items that cannot be asked for. */
   readonly errors = new Map<number, RequestError>()
   readonly #items: readonly (ParsedItem | RefusedItem)[]
@@ -218,6 +223,10 @@ export class ReadShape {
   #noteCommand({ prepared: { command } }: ReadStep, refusal: EndCodeError, read: readonly ReadStep[]): void {
     if (!read.some(({ without }) => without.has(command))) return
     this.#commandNotes.add(`${titleOf(command)} is not used, because the PLC refused it. ${refusal.message}`)
+  }
+
+  describe({ prepared }: ReadStep, items: readonly string[]): RequestDescription {
+    return describePrepared(this.#protocol, prepared, items)
   }
 
   #text(item: number): string {

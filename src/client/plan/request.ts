@@ -18,12 +18,12 @@ export type SendExchange = <T>(exchange: Exchange<T>) => Promise<T>
 
 /** One request as people see it. */
 export interface RequestDescription {
-  /** Name of the command. */
-  readonly command: CommandName
+  /** Name of the command, e.g. `readWords`. */
+  readonly command: string
   /** Form of the device specification; label commands have none. */
   readonly form?: DeviceForm
-  /** As it is sent: units and form of the device specification. */
-  readonly subcommand: number
+  /** As it is sent: units and form of the device specification; missing where commands have none. */
+  readonly subcommand?: number
   /** Points it asks for, in the units of the command. */
   readonly points: number
   /** Bytes of the whole frame; missing while it depends on types of labels that the PLC has not said yet. */

@@ -3,20 +3,20 @@
  * in the order of the entries, and nothing that may have been carried out is ever sent again.
  */
 
-import { ClosedError, EndCodeError, PlcError, RequestError, type WriteResult } from '../../errors'
+import { type PlcError, RequestError, type WriteResult } from '../../errors'
 import type { Notation } from '../../melsec/device/json'
-import { addressOptionsOf, type Profile } from '../../melsec/profiles/profile'
+import { addressOptionsOf } from '../../melsec/profiles/profile'
 import type { CallOptions } from '../connection/call'
-import { about, isAboutNoItem } from '../item/about'
+import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { PlainValue } from '../item/item-value'
-import { stopsOrder } from '../item/write-outcome'
 import { Areas } from './layout'
 import type { PlanProtocol } from './limit'
 import { describePrepared, type PlanDescription, planText, type SendExchange } from './request'
 import { alone, type Batch, batchesOf } from './write-batch'
 import { cheapestBatches } from './write-cheapest'
 import { prepareWrite, type WriteContext, type WriteStep } from './write-request'
+import { refuseAll, runWrites } from './write-run'
 import { unitsOf, type WriteUnit, writtenTwice } from './write-unit'
 
 export interface PlannedEntry {
@@ -60,6 +60,7 @@ export class DeviceWrite {
   readonly #context: WriteContext
   readonly #areas: Areas
   readonly #entries: readonly PlannedEntry[]
+  readonly #texts: readonly string[]
   readonly #options: PlanWriteOptions
   readonly #errors = new Map<number, PlcError>()
   readonly #units: readonly WriteUnit[]
@@ -73,10 +74,11 @@ export class DeviceWrite {
       options: addressOptionsOf(protocol.profile, options),
     }
     this.#entries = entries
+    this.#texts = entries.map(({ item }) => item.text)
     this.#options = options
     const units = entries.flatMap((entry, index) => this.#unitsOf(entry, index))
     this.#refuseDoubles()
-    if (options.allOrNothing === true) this.#refuseAll()
+    if (options.allOrNothing === true) refuseAll(this.#texts, this.#errors)
     this.#units = units.filter(({ entry }) => !this.#errors.has(entry))
     this.#steps = this.#batches().map((batch) => prepareWrite(this.#context, batch))
   }
@@ -117,45 +119,23 @@ export class DeviceWrite {
     for (const [entry, error] of writtenTwice(this.#areas, written)) this.#errors.set(entry, error)
   }
 
-  #refuseAll(): void {
-    const [first] = [...this.#errors.values()]
-    if (first === undefined) return
-    this.#entries.forEach(({ item }, entry) => {
-      if (this.#errors.has(entry)) return
-      const message = `${item.text} was not written, because all or nothing shall be: ${first.message}`
-      this.#errors.set(entry, new ClosedError('ABORTED', message, 'notSent', first))
-    })
-  }
-
-  /**
-   * Writes all entries once, one request after another.
-   *
-   * - A merged request that is refused because of a device was not carried out: its entries are written one by one.
-   *   Any other refusal goes to all its entries, and the next request is sent.
-   * - After any other failure, an end code with which it may have been carried out among them, nothing more is sent: the entries left over get an error with the outcome `notSent`.
-   *
-   * @param send what it rejects with is a `PlcError`
-   * @returns a result for each entry, in their order; it rejects only with what is no `PlcError`, which is a bug
-   */
-  async run(send: SendExchange): Promise<WriteResult[]> {
-    const run = new WriteRun(
-      this.#entries,
-      this.#errors,
-      this.#options.allOrNothing === true,
-      this.#context.protocol.profile,
-    )
-    for (const step of this.#steps) {
-      const refusal = await run.attempt(step, send)
-      if (refusal === undefined) continue
-      if (!run.goesOnApart(step, refusal)) run.fail(step, refusal)
-      else for (const single of this.#apart(step)) await this.#single(single, run, send)
+  /** Writes all entries once, one request after another, as `runWrites` does. */
+  run(send: SendExchange): Promise<WriteResult[]> {
+    const options = {
+      texts: this.#texts,
+      errors: this.#errors,
+      allOrNothing: this.#options.allOrNothing === true,
+      isLikely: (entry: number) => this.#isBeyond(entry),
     }
-    return run.results()
+    return runWrites(this.#steps, (step) => this.#apart(step), options, send)
   }
 
-  async #single(step: WriteStep, run: WriteRun, send: SendExchange): Promise<void> {
-    const refusal = await run.attempt(step, send)
-    if (refusal !== undefined) run.fail(step, refusal)
+  /** Whether a usual CPU of the family has no such device: of items that are refused together it is named first. */
+  #isBeyond(entry: number): boolean {
+    const item = this.#entries[entry]?.item
+    if (item === undefined || 'error' in item || item.address.extension !== undefined) return false
+    const points = this.#context.protocol.profile.ranges.points[item.address.device]
+    return points !== undefined && item.address.number >= points
   }
 
   #apart({ units }: WriteStep): WriteStep[] {
@@ -176,7 +156,7 @@ export class DeviceWrite {
   }
 
   #text(entry: number): string {
-    return this.#entries[entry]?.item.text ?? ''
+    return this.#texts[entry] ?? ''
   }
 
   #notes(): string[] {
@@ -201,118 +181,4 @@ export class DeviceWrite {
   toString(): string {
     return planText(this.describe())
   }
-}
-
-/** One run: what became of each entry so far. */
-class WriteRun {
-  readonly #entries: readonly PlannedEntry[]
-  readonly #errors: Map<number, PlcError>
-  readonly #allOrNothing: boolean
-  readonly #profile: Profile
-  /** Values of each entry that were written. */
-  readonly #written = new Map<number, number>()
-  /** Why nothing more is sent. */
-  #stopped: PlcError | undefined
-
-  constructor(
-    entries: readonly PlannedEntry[],
-    errors: ReadonlyMap<number, PlcError>,
-    allOrNothing: boolean,
-    profile: Profile,
-  ) {
-    this.#profile = profile
-    this.#entries = entries
-    this.#errors = new Map(errors)
-    this.#allOrNothing = allOrNothing
-  }
-
-  /**
-   * Sends one request.
-   * @returns the end code, when it was refused; other failures, and what may have been carried out, are given to the entries
-   */
-  async attempt(step: WriteStep, send: SendExchange): Promise<EndCodeError | undefined> {
-    if (this.#stopped !== undefined) {
-      this.#notSent(step, this.#stopped)
-      return undefined
-    }
-    // The parts of an array: after the first that failed the others are not sent.
-    if (step.units.every(({ entry }) => this.#errors.has(entry))) return undefined
-    try {
-      await step.perform(send)
-      for (const { entry, count } of step.units) this.#written.set(entry, (this.#written.get(entry) ?? 0) + count)
-      return undefined
-    } catch (error) {
-      if (error instanceof EndCodeError && error.outcome === 'refused') return error
-      if (!(error instanceof PlcError)) throw error
-      if (stopsOrder(error)) this.#stopped = error
-      this.fail(step, error)
-      return undefined
-    }
-  }
-
-  /** Whether a refused request is written again, one entry at a time: it was not carried out, and one is to blame. */
-  goesOnApart({ units }: WriteStep, { about: blamed, carriedOut }: EndCodeError): boolean {
-    const isOneToBlame = blamed === 'item' && carriedOut === false
-    return units.length > 1 && !this.#allOrNothing && isOneToBlame
-  }
-
-  fail(step: WriteStep, error: PlcError): void {
-    if (this.#allOrNothing) this.#stopped ??= error
-    const entries = [...new Set(step.units.map(({ entry }) => entry))]
-    const likely = [...entries].sort((a, b) => Number(this.#isBeyond(b)) - Number(this.#isBeyond(a)))
-    const told = mayBeAbout(error, entries.length)
-      ? about(
-          error,
-          likely.map((entry) => ({ item: this.#text(entry) })),
-        )
-      : error
-    for (const entry of entries) this.#set(entry, told)
-  }
-
-  /** Whether a usual CPU of the family has no such device: of items that are refused together it is named first. */
-  #isBeyond(entry: number): boolean {
-    const item = this.#entries[entry]?.item
-    if (item === undefined || 'error' in item || item.address.extension !== undefined) return false
-    const points = this.#profile.ranges.points[item.address.device]
-    return points !== undefined && item.address.number >= points
-  }
-
-  #notSent(step: WriteStep, cause: PlcError): void {
-    for (const { entry } of step.units) {
-      const message = `${this.#text(entry)} was not written, because an earlier request of this write failed: ${cause.message}`
-      this.#set(entry, new ClosedError('ABORTED', message, 'notSent', cause))
-    }
-  }
-
-  #set(entry: number, error: PlcError): void {
-    if (this.#errors.has(entry)) return
-    const written = this.#written.get(entry)
-    this.#errors.set(entry, written === undefined ? error : partlyWritten(this.#text(entry), written, error))
-  }
-
-  #text(entry: number): string {
-    return this.#entries[entry]?.item.text ?? ''
-  }
-
-  results(): WriteResult[] {
-    return this.#entries.map(({ item }, entry) => {
-      const error = this.#errors.get(entry)
-      return error === undefined ? { item: item.text, ok: true } : { item: item.text, ok: false, error }
-    })
-  }
-}
-
-/**
- * Whether an error may be about one of so many items: the PLC refuses what is written. That a request is not permitted, or
- * that the PLC is locked, is about none of several.
- */
-function mayBeAbout(error: PlcError, items: number): boolean {
-  return error instanceof EndCodeError && (items === 1 || !isAboutNoItem(error))
-}
-
-/** A failure in the middle of an array: the PLC was changed, so `refused` or `notSent` would be a lie. */
-function partlyWritten(text: string, written: number, cause: PlcError): PlcError {
-  const others = cause.outcome === 'unknown' ? '; whether more were is not known' : ', the others not'
-  const message = `${text}: the first ${written} values were written${others}. ${cause.message}`
-  return new ClosedError('ABORTED', message, 'unknown', cause)
 }
