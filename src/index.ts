@@ -20,6 +20,17 @@ export type {
 export type { WriteMode } from './client/file/write'
 export { headOfError, type ItemResult, nameResults } from './client/item/about'
 export type {
+  AnyItems,
+  EntriesIn,
+  InputIn,
+  InputsIn,
+  ItemTyping,
+  MelsecItems,
+  ResultsIn,
+  ValueIn,
+  ValuesIn,
+} from './client/item/item-typing'
+export type {
   ItemInput,
   ItemInputs,
   ItemResults,

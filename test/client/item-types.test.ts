@@ -11,6 +11,7 @@ import {
   type ItemInput,
   type ItemValue,
   type MelsecClient,
+  type PlcClient,
   type PlcValue,
   type ReadResult,
   type ReadValue,
@@ -546,4 +547,13 @@ test('a program may hand items on, and the types go with them', async () => {
   }
   const values = [(await through('M10')) satisfies boolean, (await real('D100')) satisfies number]
   expect(values.map((value) => typeof value)).toEqual(['boolean', 'number'])
+})
+
+test('a program for any family of PLCs takes the client, and knows nothing of the values', async () => {
+  const any: PlcClient = client
+  await any.write('D9', 12)
+  const value: ReadValue = await any.read('D9')
+  expect(value).toBe(12)
+  // @ts-expect-error: what is not known to be a number is none.
+  value satisfies number
 })

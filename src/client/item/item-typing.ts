@@ -17,13 +17,17 @@ export interface ItemTyping {
 
 /** Items of a MELSEC PLC. */
 export interface MelsecItems extends ItemTyping {
+  /** By the text of the item. */
   readonly value: ItemValue<this['item']>
+  /** By the text of the item. */
   readonly input: ItemInput<this['item']>
 }
 
 /** Items of a PLC of any family: nothing is known of their values. */
 export interface AnyItems extends ItemTyping {
+  /** Any. */
   readonly value: ReadValue
+  /** Any. */
   readonly input: WriteValue
 }
 
