@@ -109,6 +109,8 @@ export interface Job extends Question, Scheduled {
   readonly deadline: number
   /** ms it was given in all, waiting included: once sent it may use at least a share of it (`SHARE` in allowance.ts). */
   readonly allowance?: number
+  /** ms that the characters of request and answer take on a slow line: round trips are counted without them. */
+  readonly lineTime?: number | undefined
   /** ms that the PLC is told to wait before it answers (message wait of the serial frames). */
   readonly answerDelay?: number | undefined
   /** Sent although nothing proves that earlier answers are not still on their way (see `Fence`): a locked PLC echoes nothing. */

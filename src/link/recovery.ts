@@ -48,8 +48,8 @@ export class Recovery {
     if (answerTime !== undefined) this.#answerBy = now + bytes * byteTime + wait + answerTime
   }
 
-  /** The line is open: whoever used it before may have asked something that nothing ends. */
-  opened(now: number): void {
+  /** Something may have been asked, also by who used the line before, that nothing ends. */
+  mayBeAsked(now: number): void {
     if (this.#bytes.length === 0) this.#answerBy = now + (this.#options.answerTime ?? 0)
   }
 

@@ -8,7 +8,7 @@
 // needs a fence (fence.ts): each request waits until it is proved that nothing earlier is under way.
 // A line that is no connection (serial) cannot be made anew: it is brought to a known state (recovery.ts) instead.
 import { ConnectionError, PlcError, ProtocolError, RequestError } from '../errors'
-import { sendBy } from './allowance'
+import { sendBy, whyUnsent } from './allowance'
 import type { Fence } from './fence'
 import { endsWith, type Found, findFrame } from './found'
 import type { AnswerFraming, Job, JobEnd, ResponseFrame, SessionEvent } from './framing'
@@ -117,9 +117,16 @@ export class Session<J extends Job = Job> {
     return { inFlight: this.#pending.filter(({ job }) => belongs(job)).length, queued }
   }
 
-  /** A line that can recover begins in a known state: what was asked on it before may still be answered. */
-  begin(now: number): void {
-    this.#recovery?.opened(now)
+  /**
+   * Brings a line that can recover to a known state, when it begins, and when an answer turned out to be none: what was asked
+   * before may still be answered. What was about to be sent waits.
+   */
+  restore(now: number): void {
+    if (this.#recovery === undefined) return
+    this.#recovery.mayBeAsked(now)
+    for (const { job } of this.#pending.filter((entry) => !entry.sent)) this.#waiting.add(job)
+    this.#pending = this.#pending.filter((entry) => entry.sent)
+    this.#output = []
     this.#recover(now)
   }
 
@@ -250,15 +257,9 @@ export class Session<J extends Job = Job> {
   #tooLate(job: J): void {
     const waiting = this.#waiting.size
     this.#waiting.remove(job)
-    this.#finish(job, this.#whyUnsent(job, waiting), undefined)
-  }
-
-  #whyUnsent({ deadline, allowance, needsNoProof, roundTrips = this.#roundTrips }: J, waiting: number): JobEnd {
-    // While it waited the peer answered others, only not soon enough; otherwise it is silent.
-    const isAlive = allowance !== undefined && this.#answeredAt >= deadline - allowance
-    if (isAlive) return { kind: 'tooLate', waiting, roundTrip: roundTrips.usual }
-    if (this.#fence?.due !== undefined && needsNoProof !== true) return { kind: 'unproved' }
-    return { kind: 'timedOut', sent: false }
+    const why = whyUnsent(job, waiting, { answeredAt: this.#answeredAt, roundTrips: this.#roundTrips })
+    const isUnproved = why.kind === 'timedOut' && this.#fence?.due !== undefined && job.needsNoProof !== true
+    this.#finish(job, isUnproved ? { kind: 'unproved' } : why, undefined)
   }
 
   /** Whether its answer could be told from earlier ones; asks for the proof when it is due. */
@@ -414,8 +415,8 @@ export class Session<J extends Job = Job> {
     if (this.#pending.length === 1) this.#pending.pop()
     else this.#pending.splice(at, 1)
     // The first requests on a connection meet a peer that is still waking up.
-    const { allowance, roundTrips = this.#roundTrips } = found.job
-    if (allowance !== undefined) roundTrips.add(now - found.sentAt)
+    const { allowance, lineTime = 0, roundTrips = this.#roundTrips } = found.job
+    if (allowance !== undefined) roundTrips.add(Math.max(0, now - found.sentAt - lineTime))
     this.#answeredAt = now
     this.#fence?.answered()
     this.#recovery?.answered()

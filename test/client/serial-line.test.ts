@@ -41,6 +41,11 @@ const wrongSum: Damage = (answer) =>
 const half: Damage = (answer) => answer.subarray(0, 9)
 const noisy: Damage = (answer) => Buffer.concat([Buffer.of(0x00, 0xff, 0x7f), answer])
 const whole: Damage = (answer) => answer
+/** As an answer to another request of station 1 that comes very late: nothing is wrong with its frame. */
+const late: Damage = () => {
+  const head = { station: 1, network: 0, pc: 0xff, moduleIo: 0x3ff, multidrop: 0, selfStation: 0 }
+  return framing.response.write(head, 0, 0, Buffer.of(1, 0, 2, 0))
+}
 
 class Stations {
   readonly clock = manualClock()
@@ -150,6 +155,7 @@ describe('a damaged answer', () => {
   test.each([
     ['a wrong sum', wrongSum],
     ['half of it', half],
+    ['one of another size', late],
   ])('(%s) of a read is asked for once more', async (_name, damage) => {
     const { stations, first } = await two()
     stations.damages.push(damage)
@@ -176,6 +182,18 @@ describe('a damaged answer', () => {
     const write = first.write()
     await stations.pass(200)
     expect([write.told, stations.asked]).toEqual(['BAD_SUM unknown', ['1 writeWords']])
+  })
+
+  test('of another size is no answer to a write: the station stays, and the line is brought to a known state first', async () => {
+    const { stations, first, second } = await two()
+    stations.damages.push(late)
+    const write = first.write()
+    const other = second.read()
+    await stations.pass(15)
+    expect([write.told, other.told]).toEqual(['TRAILING unknown', 'pending'])
+    await stations.pass(100)
+    expect([other.told, first.connection.state.name]).toEqual([{ values: [2] }, 'connected'])
+    expect(first.connection.statistics).toMatchObject({ protocolErrors: 1, disconnects: 0 })
   })
 
   test('noise in front of an answer costs nothing', async () => {

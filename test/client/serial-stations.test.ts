@@ -134,6 +134,7 @@ class Stations {
         const exchange = protocol.exchange(commands.readWords, { head: D0, points })
         return new Tracked(connection.request(exchange, deadline.ofRequest(exchange.title)))
       },
+      reset: () => new Tracked(connection.request(protocol.exchange(commands.remoteReset, {}))),
       write: () => new Tracked(connection.request(protocol.exchange(commands.writeWords, { head: D0, values: [1] }))),
       /** Asks again and again. @returns how many answers there were so far */
       poll: () => {
@@ -321,6 +322,28 @@ describe('a large read on a slow line', () => {
     expect(reads.map(({ settled, error }) => [settled, error])).toEqual(Array.from({ length: 4 }, () => [1, undefined]))
     stations.close()
   })
+})
+
+test('a small read is not refused as too late because the ones before it were large', async () => {
+  const { stations, first, second } = await two()
+  for (let i = 0; i < 5; i++) {
+    first.read(960)
+    await stations.pass(5000)
+  }
+  const others = Array.from({ length: 5 }, () => second.read())
+  const small = Array.from({ length: 5 }, () => first.read(1, 1000))
+  await stations.pass(1500)
+  expect([...others, ...small].map(({ error }) => error)).toEqual(Array.from({ length: 10 }, () => undefined))
+  stations.close()
+})
+
+test('a request that is not answered has succeeded after the answer time, and the station stays', async () => {
+  const { stations, second } = await two()
+  stations.dead.add(2)
+  const reset = second.reset()
+  await stations.pass(200)
+  expect([reset.told, second.connection.state.name]).toEqual([{}, 'connected'])
+  stations.close()
 })
 
 test('the pause between an answer and the next request is kept, between stations, too', async () => {

@@ -225,7 +225,7 @@ describe('a line that begins', () => {
   const asked = (framingOf: Framing<SerialHead>, answerTime?: number) => {
     const recovery = { quiet: QUIET, betweenBytes: BETWEEN, ...(answerTime === undefined ? {} : { answerTime }) }
     const session = new Session<TestJob>(framingOf, { kind: 'stream', window: 1, recovery })
-    session.begin(0)
+    session.restore(0)
     session.submit({ name: 'A', deadline: 1000, ...questionOf(framingOf, head(1), Buffer.from('A')) }, 0)
     return session
   }

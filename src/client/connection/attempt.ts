@@ -158,7 +158,8 @@ export class Attempt implements LineUser {
 
   /** Sends it when its turn comes. `flush` afterwards. */
   submit(call: Call, now = this.#options.clock.now()): void {
-    call.over(this, this.#owner.roundTrips, this.#options.messageWait)
+    call.over(this, this.#owner.roundTrips)
+    if (this.#line.canRecover) call.takes(this.#line.characterTimeOf(call.exchange), this.#options.messageWait)
     if (this.#ends === undefined) this.#line.submit(call, now)
     else this.#ends = [...this.#ends, { job: call, outcome: { kind: 'disconnected', sent: false }, sentAt: undefined }]
   }
@@ -209,10 +210,9 @@ export class Attempt implements LineUser {
   settled({ job, outcome, sentAt }: LineEnd): void {
     if (outcome.kind === 'answered')
       this.#answered(job, outcome.frame, sentAt === undefined ? undefined : outcome.at - sentAt)
-    else if (outcome.kind === 'timedOut') {
-      if (outcome.isSilent === true && sentAt !== undefined) this.#absentFor = this.#line.pauseOfAbsent(sentAt)
-      this.#timedOut(job, outcome.sent)
-    } else if (outcome.kind === 'unproved') this.#unproved(job)
+    else if (outcome.kind === 'timedOut')
+      this.#timedOut(job, outcome.sent, outcome.isSilent === true ? sentAt : undefined)
+    else if (outcome.kind === 'unproved') this.#unproved(job)
     else if (outcome.kind === 'tooLate') this.#tooLate(job, outcome)
     // `disconnected` is met by `end` only.
     else if (outcome.kind === 'failed') this.#failed(job, outcome.error)
@@ -222,10 +222,7 @@ export class Attempt implements LineUser {
     const { counters } = this.#owner
     const isProbe = this.#opening.owns(job)
     this.#silent = 0
-    if (this.#line.canRecover && !this.#over && job.wasDamaged(frame)) {
-      this.submit(job)
-      return
-    }
+    if (this.#line.canRecover && !this.#over && this.#repaired(job, frame)) return
     const error = job.answer(frame, roundTrip)
     if (!isProbe) {
       counters.counts.answered += 1
@@ -244,6 +241,21 @@ export class Attempt implements LineUser {
     }
   }
 
+  /** On a line that can recover. @returns whether the call goes on, or has ended, because one of its frames was damaged */
+  #repaired(job: Call, frame: ResponseFrame): boolean {
+    const damage = job.damageOf(frame)
+    if (damage === undefined) return false
+    if (damage instanceof ProtocolError) {
+      // Whose answer it is nobody knows: the right one may still come.
+      this.#line.restore()
+      this.#failed(job, damage)
+      return true
+    }
+    if (!job.mayResend()) return false
+    this.submit(job)
+    return true
+  }
+
   /** The answer was damaged, or half of it is missing. Elsewhere than on a line that can recover, the line ends with it. */
   #failed(job: Call, error: PlcError): void {
     const goesOn = this.#line.canRecover && !this.#over
@@ -257,7 +269,8 @@ export class Attempt implements LineUser {
     if (this.#opening.owns(job)) this.#lost(error)
   }
 
-  #timedOut(job: Call, sent: boolean): void {
+  /** @param silentSince when it was sent, if silence for the answer time of the line has ended it */
+  #timedOut(job: Call, sent: boolean, silentSince: number | undefined): void {
     const isProbe = this.#opening.owns(job)
     if (sent && !job.exchange.answered) {
       takeAsDone(job)
@@ -275,7 +288,8 @@ export class Attempt implements LineUser {
       if (isProbe) this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
       return
     }
-    const by = this.#absentFor === undefined ? 'deadline' : 'answer time'
+    if (silentSince !== undefined) this.#absentFor = this.#line.pauseOfAbsent(silentSince)
+    const by = silentSince === undefined ? 'deadline' : 'answer time'
     this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes, by))
   }
 

@@ -1,5 +1,5 @@
 import { checkNames, type OptionNames } from '../../basics/option-checks'
-import { ClosedError, EndCodeError, type PlcError, RequestError } from '../../errors'
+import { ClosedError, EndCodeError, type PlcError, ProtocolError, RequestError } from '../../errors'
 import type { BodyLength, Exchange, Head, Job, Priority, ResponseFrame, RoundTrips } from '../../link/link'
 import { abortedBeforeSending, asPlcError } from './failure'
 
@@ -110,7 +110,8 @@ export class Call implements Job {
   /** ms it was given in all. */
   readonly allowance?: number
   readonly caller: unknown
-  #answerDelay: number | undefined
+  lineTime: number | undefined
+  answerDelay: number | undefined
   #plc: object | undefined
   #roundTrips: RoundTrips | undefined
 
@@ -127,15 +128,10 @@ export class Call implements Job {
     this.caller = caller
   }
 
-  /** It goes over a line: for this PLC, whose answers take so long, and which is told to wait before them. */
-  over(plc: object, roundTrips: RoundTrips, answerDelay?: number): void {
+  /** It goes over a line: for this PLC, whose answers take so long. */
+  over(plc: object, roundTrips: RoundTrips): void {
     this.#plc = plc
     this.#roundTrips = roundTrips
-    this.#answerDelay = answerDelay
-  }
-
-  get answerDelay(): number | undefined {
-    return this.#answerDelay
   }
 
   /** Whose it is on the line. */
@@ -175,6 +171,12 @@ export class Call implements Job {
     this.#unwatch = unwatch
   }
 
+  /** On a slow line: ms of the characters of request and answer, and that the PLC is told to wait before it answers. */
+  takes(lineTime: number, answerDelay: number | undefined): void {
+    this.lineTime = lineTime
+    this.answerDelay = answerDelay
+  }
+
   /**
    * Whether its answer may be asked for once more, because what came was damaged. Not of what changes the PLC: it may have
    * been carried out.
@@ -184,15 +186,20 @@ export class Call implements Job {
     return (effect === 'read' || effect === 'diagnose') && this.#isFirst()
   }
 
-  /** Whether the PLC says that the request arrived damaged, so that nothing was done: it may be sent once more. */
-  wasDamaged(frame: ResponseFrame): boolean {
-    if (frame.endCode === 0) return false
+  /** Whether it may be sent once more, because the PLC says that it arrived damaged and did nothing. */
+  mayResend(): boolean {
+    return this.#isFirst()
+  }
+
+  /** Which of its frames was damaged: `request`, says the PLC; or why the answer is none to it. */
+  damageOf(frame: ResponseFrame): 'request' | ProtocolError | undefined {
     try {
       this.exchange.decode(frame)
-      return false
+      return undefined
     } catch (error) {
+      if (error instanceof ProtocolError) return error
       const isDamaged = error instanceof EndCodeError && error.about === 'transmission' && error.carriedOut === false
-      return isDamaged && this.#isFirst()
+      return isDamaged ? 'request' : undefined
     }
   }
 

@@ -144,8 +144,20 @@ export class Line {
   timeOf(exchange: Exchange<unknown>, wait = 0): number {
     const { byteTime = 0, answerTime = 0, gap = 0 } = this.#options.recovery ?? {}
     if (byteTime === 0 || !this.canRecover) return 0
+    return this.characterTimeOf(exchange) + wait + answerTime + gap
+  }
+
+  /** Of these, ms that its characters take. */
+  characterTimeOf(exchange: Exchange<unknown>): number {
+    const { byteTime = 0 } = this.#options.recovery ?? {}
+    if (byteTime === 0) return 0
     const answer = exchange.answered ? (exchange.answerSize() ?? LONGEST_ANSWER) : 0
-    return (exchange.write(0).length + answer) * byteTime + wait + answerTime + gap
+    return (exchange.write(0).length + answer) * byteTime
+  }
+
+  /** An answer was none: brings the line to a known state, before anything else is asked on it. */
+  restore(): void {
+    this.#carrier?.session?.restore(this.#options.clock.now())
   }
 
   /**
@@ -263,7 +275,7 @@ export class Line {
     const given = { kind: transport.kind, window: inFlight, serials: this.#serials }
     const options = recovery === undefined ? given : { ...given, recovery }
     carrier.session = new Session<Call>(framing, options, this.#fenceFor(transport))
-    carrier.session.begin(clock.now())
+    carrier.session.restore(clock.now())
     this.#failed = undefined
     for (const user of [...this.#users]) if (this.#users.has(user)) user.opened()
     this.flush()
