@@ -91,6 +91,12 @@ export type { PlanDescription, RequestDescription } from './client/plan/request'
 export type { WriteCallOptions, WriteOptions } from './client/plan/write'
 export type { DataCode, Declaration, Effect, MessageInput, MessageOf, Shape } from './codec/codec'
 export {
+  type ExplainCodeOptions,
+  type ExplainOptions,
+  explainEndCode,
+  meaningsOfEndCode,
+} from './end-code/explain'
+export {
   type CauseData,
   ClosedError,
   type ClosedErrorCode,
@@ -130,14 +136,10 @@ export type { Notation } from './melsec/device/json'
 export type { LimitUnit } from './melsec/device/limit-rule'
 export {
   type EndCodeExplanation,
-  type ExplainCodeOptions,
-  type ExplainOptions,
   endCodes,
-  explainEndCode,
   type Language,
   languages,
   type MelsecEndCodeFamily,
-  meaningsOfEndCode,
   melsecEndCodeFamilies,
 } from './melsec/end-codes/end-code'
 export type { EndCodeEntry } from './melsec/end-codes/entry'

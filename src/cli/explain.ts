@@ -2,12 +2,12 @@ import { commands } from '../entry/codec'
 import {
   type CommandName,
   type EndCodeExplanation,
+  type EndCodeFamily,
+  endCodeFamilies,
   explainEndCode,
   type Language,
   languages,
-  type MelsecEndCodeFamily,
   meaningsOfEndCode,
-  melsecEndCodeFamilies,
   RequestError,
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
@@ -27,7 +27,7 @@ const examples = [
 
 interface ExplainOptions {
   readonly language: Language
-  readonly family?: MelsecEndCodeFamily
+  readonly family?: EndCodeFamily
   readonly command?: CommandName
   readonly json?: boolean
 }
@@ -39,8 +39,8 @@ export const explainCommand: MakeCommand = (run) =>
     .addOption(
       choice(
         '--family <family>',
-        'whose number it is: slmp (four digits, 3E, 4E, 3C and 4C frames and registers), 1E or 1C (two digits); default all that have it',
-        melsecEndCodeFamilies,
+        'whose number it is: slmp (four digits, 3E, 4E, 3C and 4C frames and registers), 1E, 1C or jw (Sharp JW; two digits); default all that have it',
+        endCodeFamilies,
       ),
     )
     .addOption(choice('--language <language>', 'language of the text', languages).default('en-US'))

@@ -258,17 +258,18 @@ describe('explain', () => {
   test('a number of several frames: all its meanings, or that of the one the user names', async () => {
     const all = await run('explain', '10')
     expect(all.out).toMatch(/say --family/)
-    expect([...all.out.matchAll(/^End code +(\w+)$/gm)].map(([, code]) => code)).toEqual(['10H', '10H'])
+    expect([...all.out.matchAll(/^End code +(\w+)$/gm)].map(([, code]) => code)).toEqual(['10H', '10H', '10H'])
     expect([...all.out.matchAll(/^Where +.*\b(1E|1C) frame/gm)].map(([, frame]) => frame)).toEqual(['1E', '1C'])
     const one = await run('explain', '10', '--family', '1C')
     expect([...one.out.matchAll(/^End code/gm)]).toHaveLength(1)
     expect(one.out).not.toMatch(/say --family/)
     expect((await run('explain', 'C056', '--family', '1E')).code).toBe(2)
-    expect((await run('explain', '10', '--family', 'jw')).code).toBe(2)
+    expect((await run('explain', '10', '--family', 'jw')).out).toMatch(/^Meaning +The write mode does not allow it\.$/m)
+    expect((await run('explain', '05', '--family', 'jw')).code).toBe(2)
   })
 
   test.each([
-    ['0001', /No text is known for end code 0001H/],
+    ['0400', /No text is known for end code 0400H/],
     ['hello', /no end code: write up to four hexadecimal digits/],
   ])('%s', async (text, message) => {
     const { code, err } = await runHere(['explain', text])

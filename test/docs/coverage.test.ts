@@ -4,6 +4,7 @@ import { parse } from 'acorn'
 import { parseItem } from '../../src/client/item/item'
 import { settleSerialLine } from '../../src/client/melsec/serial-options'
 import { settle } from '../../src/client/melsec/settings'
+import { explainEndCode } from '../../src/end-code/explain'
 import * as address from '../../src/entry/address'
 import * as codec from '../../src/entry/codec'
 import * as simulator from '../../src/entry/simulator'
@@ -13,7 +14,6 @@ import type { Command } from '../../src/melsec/commands/command'
 import { commands } from '../../src/melsec/commands/commands'
 import { devices } from '../../src/melsec/device/device'
 import { limitsOf } from '../../src/melsec/device/limit'
-import { explainEndCode } from '../../src/melsec/end-codes/end-code'
 import { doubtOf, lackOf, profileIds } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { faultKinds } from '../../src/simulator/fault-kinds'
@@ -221,10 +221,10 @@ describe('lists', () => {
   test('rooms and what they may import are in docs/architecture.md as in the test of the architecture', () => {
     const [, block = ''] = readText('test/architecture.test.ts').split('const ROOMS')
     const [table = ''] = block.split('\n}')
-    const rules = [...table.matchAll(/^ {2}'?([\w/]+)'?: \[([^\]]*)\],$/gm)]
+    const rules = [...table.matchAll(/^ {2}'?([\w/-]+)'?: \[([^\]]*)\],$/gm)]
     const wanted = rules.map(([, room, names = '']) => [
       room,
-      [...names.matchAll(/'([\w/]+)'/g)].map(([, name]) => name),
+      [...names.matchAll(/'([\w/-]+)'/g)].map(([, name]) => name),
     ])
     expect(wanted.length).toBeGreaterThan(8)
     const shown = tableAfter('docs/architecture.md', 'rooms').map(([room, names]) => [

@@ -1,14 +1,12 @@
 import { describe, expect, jest, test } from '@jest/globals'
+import { type ExplainCodeOptions, explainEndCode, meaningsOfEndCode } from '../../src/end-code/explain'
 import { EndCodeError, endCodeAbouts, RequestError } from '../../src/errors'
 import { each } from '../../src/link/link'
 import { commands } from '../../src/melsec/commands/commands'
 import {
-  type ExplainCodeOptions,
   endCodes,
-  explainEndCode,
   languages,
   type MelsecEndCodeFamily,
-  meaningsOfEndCode,
   melsecEndCodeFamilies,
 } from '../../src/melsec/end-codes/end-code'
 import { endCodeTables, factsOf } from '../../src/melsec/end-codes/facts'
@@ -285,7 +283,7 @@ describe('a number that several families have', () => {
   })
 
   test('all its meanings, for whoever does not know where it is from', () => {
-    expect(meaningsOfEndCode(0x10).map(({ family }) => family)).toEqual(['1E', '1C'])
+    expect(meaningsOfEndCode(0x10).map(({ family }) => family)).toEqual(['1E', '1C', 'jw'])
     expect(meaningsOfEndCode(0x55, { language: 'ja' }).map(({ family }) => family)).toEqual(['slmp', '1E'])
     expect(meaningsOfEndCode(0xc056)).toEqual([slmp(0xc056)])
     expect(meaningsOfEndCode(0x9999)).toEqual([])
@@ -293,8 +291,10 @@ describe('a number that several families have', () => {
 
   test('of a JW has no text of MELSEC', () => {
     const refused = new EndCodeError(0x10, 'refused', { family: 'jw' })
-    expect(explainEndCode(refused)).toBeUndefined()
-    expect(explainEndCode(0x12, { family: 'jw' })).toBeUndefined()
+    expect(explainEndCode(refused)).toMatchObject({ family: 'jw', meaning: 'The write mode does not allow it.' })
+    // 05H is a code of other models; of MELSEC 55H is one of 1E.
+    expect(explainEndCode(0x05, { family: 'jw' })).toBeUndefined()
+    expect(explainEndCode(0x55, { family: 'jw' })).toBeUndefined()
   })
 
   test('an error says by itself whose it is, which command got it, and what is behind it', () => {

@@ -1,7 +1,8 @@
 /** The codes of NAK: what a program decides by when a serial PLC has refused. */
 import { describe, expect, test } from '@jest/globals'
+import { explainEndCode } from '../../src/end-code/explain'
 import { commands } from '../../src/melsec/commands/commands'
-import { explainEndCode, languages } from '../../src/melsec/end-codes/end-code'
+import { languages } from '../../src/melsec/end-codes/end-code'
 import { factsOf } from '../../src/melsec/end-codes/facts'
 import { oneCCommands } from '../../src/melsec/one-c/commands'
 import { codesOf, errorTables } from './error-tables'

@@ -131,8 +131,11 @@ describe('an end code', () => {
   test('of a family whose numbers mean something else gets no text of this one', () => {
     // As a Sharp JW answers: 10H would be the PC No. error of a 1C frame.
     const details = detailsOf(refused(0x10, 'readWords', { family: 'jw' }), textsIn('zh-TW'))
-    expect(details).not.toHaveProperty('meaning')
-    expect(details).toMatchObject({ family: 'jw', message: 'Read (word units) was refused.' })
+    expect(details).toMatchObject({ family: 'jw', meaning: '寫入模式不符。' })
+    expect(details.message).toContain('寫入模式不符。')
+    const unknown = detailsOf(refused(0x05, 'readWords', { family: 'jw' }), textsIn('zh-TW'))
+    expect(unknown).not.toHaveProperty('meaning')
+    expect(unknown).toMatchObject({ family: 'jw', message: 'Read (word units) was refused.' })
   })
 
   test('names the command by its name, whatever its title', () => {

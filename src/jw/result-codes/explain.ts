@@ -21,7 +21,7 @@ export function explainResultCode(
   code: number,
   { language = 'en-US' }: { readonly language?: Language } = {},
 ): EndCodeExplanation | undefined {
-  const { resultCodeTexts, remedies } = tables()
+  const { resultCodeTexts, remedies, place } = tables()
   const found = resultCodeTexts.find((entry) => entry.code === code)
   if (found === undefined) return undefined
   const inLanguage = (texts: Texts) => texts[languages.indexOf(language)] ?? texts[0]
@@ -29,7 +29,7 @@ export function explainResultCode(
     family: 'jw',
     meaning: inLanguage(found.meaning),
     remedy: inLanguage(remedies[found.remedy]),
-    where: [],
+    where: [inLanguage(place)],
     answer: true,
     about: resultFacts.about(code),
     exact: true,

@@ -1,6 +1,14 @@
 // The texts of the result codes: JW300 option unit manual, "Message form". Loaded when a code is explained.
 import type { Texts } from '../../basics/texts'
 
+/** Where the codes are seen. */
+export const place: Texts = [
+  'Result code (RSLT) in the answer of a Sharp JW.',
+  'シャープJWの応答に入る実行結果（RSLT）です。',
+  'Sharp JW的响应中的执行结果（RSLT）。',
+  'Sharp JW的回應中的執行結果（RSLT）。',
+]
+
 /** What to do, for codes that share it. */
 export const remedies = {
   report: [

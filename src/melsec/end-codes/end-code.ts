@@ -1,10 +1,9 @@
 // What an end code means and what to do, in four languages.
-import { EndCodeError, type EndCodeFamily, endCodeFamilies, RequestError } from '../../errors'
+import type { EndCodeFamily } from '../../errors'
 import type { EndCodeExplanation } from '../../link/link'
-import type { CommandName } from '../commands/commands'
 import type { EndCodeEntry } from './entry'
 import { factsOf } from './facts'
-import { isMelsecFamily, type MelsecEndCodeFamily, melsecEndCodeFamilies } from './family'
+import { isMelsecFamily, type MelsecEndCodeFamily } from './family'
 import type { RemedyName } from './remedies'
 import { type Language, languages, type Texts } from './texts'
 
@@ -29,22 +28,8 @@ export function endCodes(family: MelsecEndCodeFamily): readonly EndCodeEntry[] {
   return tables().endCodeEntries[family]
 }
 
-/** How an end code is explained. */
-export interface ExplainOptions {
-  /** Default `en-US`. */
-  readonly language?: Language
-}
-
-/** Of a number alone, what an error knows by itself. */
-export interface ExplainCodeOptions extends ExplainOptions {
-  /** Whose number it is; the same one means something else in another family. */
-  readonly family: EndCodeFamily
-  /** The command that got the code; it may tell the cause. */
-  readonly command?: CommandName
-}
-
 /** A code as an answer carries it. */
-interface Answered {
+export interface Answered {
   readonly endCode: number
   readonly abnormalCode?: number | undefined
   readonly commandName?: string | undefined
@@ -63,46 +48,6 @@ function causeOf(code: number, command: string | undefined, language: Language):
     ({ code: about, commands }) => about === code && commands.some((name) => name === command),
   )
   return hint === undefined ? {} : { cause: inLanguage(hint.cause, language) }
-}
-
-/**
- * What an end code means, of an error or of a number whose family is given. `undefined` for a code nobody has a text for,
- * as all of Sharp JW: pass the number on.
- *
- * @throws RequestError BAD_OPTION without a family that exists
- * @example explainEndCode(error, { language: 'ja' })?.remedy
- * @example explainEndCode(0xc056, { family: 'slmp' })?.remedy // 'Check device name and number against the device settings of the CPU in GX Works.'
- * @example explainEndCode(0xc059, { family: 'slmp', command: 'executeMonitor' })?.cause
- */
-export function explainEndCode(error: EndCodeError, options?: ExplainOptions): EndCodeExplanation | undefined
-export function explainEndCode(code: number, options: ExplainCodeOptions): EndCodeExplanation | undefined
-export function explainEndCode(
-  given: EndCodeError | number,
-  options: ExplainOptions & Partial<ExplainCodeOptions> = {},
-): EndCodeExplanation | undefined {
-  const { language, family, command } = options
-  if (given instanceof EndCodeError) return explained(given.family, given, language)
-  if (family === undefined || !endCodeFamilies.includes(family)) {
-    const families = endCodeFamilies.join(', ')
-    throw new RequestError('BAD_OPTION', `family must say whose number it is: ${families}.`, 'family')
-  }
-  return explained(family, { endCode: given, commandName: command }, language)
-}
-
-/**
- * Everything a number may mean, one explanation for each family that has a text for it: for whoever does not know where it
- * is from.
- * @example meaningsOfEndCode(0x10).map(({ family, meaning }) => `${family}: ${meaning}`)
- */
-export function meaningsOfEndCode(
-  code: number,
-  options: Omit<ExplainCodeOptions, 'family'> = {},
-): readonly EndCodeExplanation[] {
-  const { language, command } = options
-  const all = melsecEndCodeFamilies.map((family) =>
-    explained(family, { endCode: code, commandName: command }, language),
-  )
-  return all.filter((one) => one !== undefined)
 }
 
 /** With an abnormal code behind it, that is what tells why. */
