@@ -1,25 +1,31 @@
 // The options that say which PLC, the same for every command that talks to one.
-import { Argument, type Command, InvalidArgumentError, Option } from 'commander'
+import { type Command, InvalidArgumentError, Option } from 'commander'
 import {
   createMelsecClient,
   encodings,
+  ethernetFrameNames,
   type FrameName,
   frameNames,
   type MelsecClient,
   type MelsecClientOptions,
   moduleIoNumbers,
+  type NetworkPlc,
   type OpenTransport,
   PlcError,
   type ProfileId,
   probeKinds,
   profileIds,
+  profiles,
   RequestError,
+  type SerialPlc,
   type ValueFormat,
 } from '../index'
+import { choice, given, whole } from './option'
+import { addSerialLineOptions, type SerialLineOptions, serialPortOf } from './serial-options'
 import type { Terminal } from './terminal'
 
 /** The options as commander gives them. */
-export interface ConnectionOptions {
+export interface ConnectionOptions extends SerialLineOptions {
   readonly plc?: string
   readonly host?: string
   readonly port?: number
@@ -37,11 +43,14 @@ export interface ConnectionOptions {
   readonly moduleIo?: number
   readonly multidrop?: number
   readonly extensionStation?: number
+  readonly pc?: number
+  readonly selfStation?: number
+  readonly messageWait?: number
   readonly monitoringTimer?: number
   readonly localAddress?: string
   readonly localPort?: number
   readonly probe?: NonNullable<MelsecClientOptions['probe']>
-  readonly timeout: number
+  readonly timeout?: number
   readonly connectTimeout: number
   readonly password?: boolean
   readonly trace?: boolean
@@ -56,33 +65,6 @@ export interface FormatOptions {
 }
 
 const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullable<ValueFormat['wordOrder']>[]
-
-/** A whole number of an option. */
-export function whole(min: number, max: number): (text: string) => number {
-  return (text) => {
-    const value = /^\d+$/.test(text) ? Number(text) : Number.NaN
-    if (value >= min && value <= max) return value
-    throw new InvalidArgumentError(`It is a whole number from ${min} to ${max}.`)
-  }
-}
-
-/** A choice that is taken in upper and lower case. */
-export function choice<T extends string>(flags: string, description: string, values: readonly T[]): Option {
-  return new Option(flags, description).choices(values).argParser(oneOf(values))
-}
-
-/** As `choice`, for an argument. */
-export function choiceArgument<T extends string>(name: string, description: string, values: readonly T[]): Argument {
-  return new Argument(name, description).choices(values).argParser(oneOf(values))
-}
-
-function oneOf<T extends string>(values: readonly T[]): (text: string) => T {
-  return (text) => {
-    const found = values.find((value) => value.toLowerCase() === text.toLowerCase())
-    if (found !== undefined) return found
-    throw new InvalidArgumentError(`Choose one of ${values.join(', ')}.`)
-  }
-}
 
 export const jsonOption = () => new Option('--json', 'print one JSON document instead of text')
 export const profileOption = () => choice('--profile <id>', 'family of the PLC', profileIds)
@@ -130,10 +112,11 @@ export function addConnectionOptions(command: Command): Command {
       ),
     )
     .addOption(new Option('--udp', 'UDP; without it TCP'))
+    .addOption(new Option('--serial <path>', 'serial port instead, e.g. COM3 or /dev/ttyUSB0'))
     .addOption(profileOption().default('generic'))
     .addOption(frameOption("frame; default: the profile's", frameNames))
   addCodeOptions(command)
-  return command
+  command
     .addOption(choice('--ascii-word-order <order>', 'labels in ASCII code: order of the words of a value', ORDERS))
     .addOption(
       new Option(
@@ -143,13 +126,23 @@ export function addConnectionOptions(command: Command): Command {
     )
     .addOption(wRadixOption())
     .addOption(new Option('--password', `ask for the remote password; without it ${PASSWORD} is used, if set`))
+  addSerialLineOptions(command.optionsGroup('Serial line, also behind a device server:'))
+  return command
+    .addOption(
+      new Option('--message-wait <ms>', '1C: the PLC waits so long before it answers; 0 to 150').argParser(
+        whole(0, 150),
+      ),
+    )
     .optionsGroup('Another station or CPU:')
     .addOption(new Option('--network <number>', 'another network').argParser(whole(0, 255)))
     .addOption(
-      new Option('--station <number>', 'another station of that network; above 120 with --frame ext').argParser(
-        whole(0, 65_534),
-      ),
+      new Option(
+        '--station <number>',
+        'another station of that network, above 120 with --frame ext; on a serial line its station',
+      ).argParser(whole(0, 65_534)),
     )
+    .addOption(new Option('--pc <number>', 'serial line: PC number, decimal').argParser(whole(0, 255)))
+    .addOption(new Option('--self-station <number>', 'serial line: self-station number').argParser(whole(0, 31)))
     .addOption(
       new Option(
         '--module-io <number>',
@@ -176,7 +169,7 @@ export function addConnectionOptions(command: Command): Command {
       ),
     )
     .addOption(choice('--probe <name>', 'request that proves the connection (default: auto)', probeKinds))
-    .addOption(new Option('--timeout <ms>', 'time for an answer').default(3000).argParser(whole(1, 3_600_000)))
+    .addOption(new Option('--timeout <ms>', 'time for an answer (default: 3000)').argParser(whole(1, 3_600_000)))
     .addOption(
       new Option('--connect-timeout <ms>', 'time for the connection').default(5000).argParser(whole(1, 3_600_000)),
     )
@@ -276,12 +269,10 @@ export function clientOptions(
   allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'> = {},
 ): MelsecClientOptions {
   return {
-    ...peerOf(options),
-    transport: options.udp === true ? 'udp' : 'tcp',
-    code: options.ascii === true ? 'ascii' : 'binary',
-    timeout: options.timeout,
+    ...wayTo(options),
+    ...codeOf(options),
     connectTimeout: options.connectTimeout,
-    route: given(options, ['network', 'station', 'moduleIo', 'multidrop', 'extensionStation']),
+    route: given(options, ['network', 'station', 'moduleIo', 'multidrop', 'extensionStation', 'pc', 'selfStation']),
     format: given(options, ['wordOrder', 'byteOrder', 'encoding']),
     ...given(options, [
       'profile',
@@ -295,21 +286,38 @@ export function clientOptions(
       'localAddress',
       'localPort',
       'probe',
+      'timeout',
+      'messageFormat',
+      'messageWait',
     ]),
+    // Commander has it as true without the option.
+    ...(options.sumCheck === false ? { sumCheck: false } : {}),
     ...allow,
   }
 }
 
-type Given<T> = { [K in keyof T]?: Exclude<T[K], undefined> }
-
-/** Those of the named options that were given. */
-function given<T extends object, K extends keyof T>(options: T, names: readonly K[]): Given<Pick<T, K>> {
-  const entries = names.map((name) => [name, options[name]] as const).filter(([, value]) => value !== undefined)
-  return Object.fromEntries(entries) as Given<Pick<T, K>>
+/** Address and port, or a serial port. */
+function wayTo(options: ConnectionOptions): NetworkPlc | SerialPlc {
+  const { serial: path, udp } = options
+  const { path: _, ...line } = serialPortOf(options) ?? {}
+  if (path !== undefined) {
+    const other = (['plc', 'host', 'port', 'udp'] as const).find((name) => options[name] !== undefined)
+    if (other !== undefined) throw badPeer(`Give --serial or --${other}, not both.`, 'serial')
+    return { serial: { ...line, path } }
+  }
+  const server = Object.keys(line).length === 0 ? {} : { serial: line }
+  return { ...peerOf(options), ...server, ...(udp === true ? { transport: 'udp' } : {}) }
 }
 
-/** e.g. `tcp 192.168.3.39:5010` */
+/** The data code. Of a serial frame the message format says it. */
+function codeOf({ ascii, profile = 'generic', frame = profiles[profile].frame }: ConnectionOptions) {
+  if (ascii === true) return { code: 'ascii' } as const
+  return ethernetFrameNames.some((name) => name === frame) ? ({ code: 'binary' } as const) : {}
+}
+
+/** e.g. `tcp 192.168.3.39:5010`, `serial /dev/ttyUSB0` */
 export function peerText(options: ConnectionOptions): string {
+  if (options.serial !== undefined) return `serial ${options.serial}`
   const { host, port } = peerOf(options)
   return `${options.udp === true ? 'udp' : 'tcp'} ${host.includes(':') ? `[${host}]` : host}:${port}`
 }
@@ -333,12 +341,15 @@ export async function withClient<T>(
   try {
     prepare(client)
     // A deadline of its own: it holds the attempt and the answer that proves the connection, and says why it failed.
-    await client.connect({ timeout: options.connectTimeout + options.timeout })
+    await client.connect({ timeout: options.connectTimeout + (options.timeout ?? USUAL_TIME) })
     return await work(client)
   } finally {
     await client.close()
   }
 }
+
+/** ms for the answer that proves the connection, when nobody says how long. */
+const USUAL_TIME = 3000
 
 const nowhere: OpenTransport = () => {
   throw new Error('There is no way to a PLC: only what is refused before it is sent counts.')

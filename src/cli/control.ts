@@ -1,14 +1,8 @@
 import { type ClearMode, type MelsecClient, RequestError, type RunOptions } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import {
-  addConnectionOptions,
-  type ConnectionOptions,
-  choice,
-  peerText,
-  refuseUnsent,
-  withClient,
-} from './connection-options'
+import { addConnectionOptions, type ConnectionOptions, peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
+import { choice } from './option'
 import { json } from './output'
 import { refusalOf, type Terminal } from './terminal'
 

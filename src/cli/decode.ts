@@ -2,8 +2,9 @@ import { explainFrame, explainJwFrame, formatExplanation } from '../entry/codec'
 import { type DataCode, frameNames, type ProfileId, RequestError } from '../index'
 import { bytesOfText, pastedBytes } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
-import { addDigitOptions, choice, jsonOption, profileOption, wRadixOption } from './connection-options'
+import { addDigitOptions, jsonOption, profileOption, wRadixOption } from './connection-options'
 import { exitCodes } from './exit-code'
+import { choice } from './option'
 import { json } from './output'
 import type { Terminal } from './terminal'
 
@@ -33,7 +34,7 @@ interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wR
   readonly json?: boolean
 }
 
-const FRAMES = [...frameNames, '1C', '3C', '4C', 'JW'] as const satisfies readonly (ExplainOptions['frame'] | 'JW')[]
+const FRAMES = [...frameNames, 'JW'] as const satisfies readonly (ExplainOptions['frame'] | 'JW')[]
 const FORMATS = ['1', '4', '5'] as const
 const formats = { '1': 1, '4': 4, '5': 5 } as const satisfies Record<(typeof FORMATS)[number], number>
 

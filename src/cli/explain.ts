@@ -11,9 +11,10 @@ import {
   RequestError,
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { choice, jsonOption } from './connection-options'
+import { jsonOption } from './connection-options'
 import { endCodeOf, endCodeText } from './end-code'
 import { exitCodes } from './exit-code'
+import { choice } from './option'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
 

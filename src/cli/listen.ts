@@ -5,15 +5,14 @@ import { type MakeCommand, newCommand, perform } from './command'
 import {
   addConnectionOptions,
   type ConnectionOptions,
-  choice,
   encodingOption,
   type FormatOptions,
   peerText,
-  whole,
   withClient,
 } from './connection-options'
 import { exitCodes } from './exit-code'
 import { interruption } from './interruption'
+import { choice, whole } from './option'
 import { errorText } from './output'
 import type { Terminal } from './terminal'
 

@@ -1,7 +1,8 @@
 import { type ProfileInfo, profileIds, profiles, resolveProfile } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { choiceArgument, jsonOption } from './connection-options'
+import { jsonOption } from './connection-options'
 import { exitCodes } from './exit-code'
+import { choiceArgument } from './option'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
 

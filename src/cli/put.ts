@@ -3,7 +3,7 @@ import { stat } from 'node:fs/promises'
 import { basename } from 'node:path'
 import { RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { choice, peerText, refuseUnsent, withClient } from './connection-options'
+import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import {
   addChangeOptions,
@@ -14,6 +14,7 @@ import {
   progressOn,
 } from './file-options'
 import { localFault } from './get'
+import { choice } from './option'
 import { json } from './output'
 import type { Terminal } from './terminal'
 
