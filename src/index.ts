@@ -64,6 +64,7 @@ export type {
   ClearMode,
   Control,
   Identity,
+  GlobalSignalOptions,
   IdentityWarning,
   LatchClearOptions,
   PauseOptions,

@@ -1,4 +1,4 @@
-import { type ClearMode, type MelsecClient, RequestError, type RunOptions } from '../index'
+import { type ClearMode, type GlobalSignalOptions, type MelsecClient, RequestError, type RunOptions } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
@@ -17,9 +17,10 @@ interface ControlOptions extends ConnectionOptions {
   readonly force?: boolean
   readonly clear?: ClearMode
   readonly verify?: boolean
+  readonly all?: boolean
 }
 
-const EXTRAS = ['force', 'clear', 'verify'] as const
+const EXTRAS = ['force', 'clear', 'verify', 'all'] as const
 type Extra = (typeof EXTRAS)[number]
 
 interface Action {
@@ -77,6 +78,20 @@ const ACTIONS: Readonly<Record<string, Action>> = {
     done: 'Sent. A CPU that resets does not answer, and drops its connections.',
     run: ({ control }) => control.reset(),
   },
+  'global-on': {
+    title: 'Global signal ON',
+    effect: 'the global signal of the station goes on, with --all that of every station on the line (1C frames)',
+    takes: ['all'],
+    done: 'Sent. What is for all stations is answered by none.',
+    run: ({ control }, options) => control.globalSignal(true, globalSignal(options)),
+  },
+  'global-off': {
+    title: 'Global signal OFF',
+    effect: 'the global signal of the station goes off, with --all that of every station on the line (1C frames)',
+    takes: ['all'],
+    done: 'Sent. What is for all stations is answered by none.',
+    run: ({ control }, options) => control.globalSignal(false, globalSignal(options)),
+  },
   'clear-error': {
     title: 'Clear error',
     effect: 'the error codes of the connected module are cleared and its error LED goes off',
@@ -105,6 +120,10 @@ function given({ force, clear, verify }: ControlOptions): RunOptions {
   }
 }
 
+function globalSignal({ all }: ControlOptions): GlobalSignalOptions {
+  return all === true ? { to: 'all' } : {}
+}
+
 /** `melsec-jw control` */
 export const controlCommand: MakeCommand = (run) => {
   const list = Object.entries(ACTIONS).map(([name, { title, effect }]) => `  ${name.padEnd(12)} ${title}: ${effect}`)
@@ -119,6 +138,7 @@ export const controlCommand: MakeCommand = (run) => {
     .option('-y, --yes', 'do not ask')
     .option('--force', 'run and pause: also when another device has stopped or paused the CPU')
     .option('--verify', 'run, stop and pause: read the state of the CPU back')
+    .option('--all', 'global-on and global-off: every station on the line')
     .addOption(choice('--clear <what>', 'run: devices that are cleared before', CLEAR_MODES))
   addConnectionOptions(command).addHelpText('after', `\nActions:\n${list.join('\n')}`)
   return command.action((name: string, options: ControlOptions) =>

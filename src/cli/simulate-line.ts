@@ -1,5 +1,6 @@
 // `simulate` for a serial line with several stations.
 import { type Command, InvalidArgumentError, Option } from 'commander'
+import { definedOf } from '../basics/defined'
 import {
   createLineSimulator,
   demoPlantTags,
@@ -9,26 +10,17 @@ import {
   startDemoPlant,
 } from '../entry/simulator'
 import { ethernetFrameNames, type FrameName, type ProfileId, profiles, RequestError } from '../index'
-import { choice, whole } from './connection-options'
 import { exitCodes } from './exit-code'
 import { faultOf } from './fault-option'
 import { interruption } from './interruption'
+import { whole } from './option'
 import { json, table } from './output'
+import { addSerialLineOptions, type SerialLineOptions } from './serial-options'
 import { addressRow, isLoopback, outcomeText, plantTable } from './simulated'
 import type { Terminal } from './terminal'
 
-type SerialPort = NonNullable<LineSimulatorOptions['serial']>
-
 /** The options that a line has alone. */
-interface OwnOptions {
-  readonly serial?: string
-  readonly baudRate?: NonNullable<SerialPort['baudRate']>
-  readonly dataLength?: NonNullable<SerialPort['dataLength']>
-  readonly parity?: NonNullable<SerialPort['parity']>
-  readonly stopBits?: NonNullable<SerialPort['stopBits']>
-  readonly rts?: NonNullable<SerialPort['rts']>
-  readonly messageFormat?: NonNullable<LineSimulatorOptions['messageFormat']>
-  readonly sumCheck: boolean
+interface OwnOptions extends SerialLineOptions {
   readonly stations?: readonly number[]
   readonly pace?: boolean
   readonly echo?: boolean
@@ -88,18 +80,12 @@ export const lineExamples = [
 
 /** Adds the options of a serial line. */
 export function addLineOptions(command: Command): Command {
+  addSerialLineOptions(command)
   return command
     .addOption(
       new Option('--stations <numbers>', 'a serial line with these stations, e.g. 0,1,2').argParser(stationsOf),
     )
     .option('--serial <path>', 'a serial line at this port, e.g. COM3 or /dev/ttyUSB0; without it at --port only')
-    .addOption(new Option('--baud-rate <number>', 'serial line: bits per second; default 9600').argParser(Number))
-    .addOption(new Option('--data-length <bits>', 'serial line: 7 or 8; default 7, format 5: 8').argParser(Number))
-    .addOption(choice('--parity <parity>', 'serial line: default odd', ['none', 'odd', 'even']))
-    .addOption(new Option('--stop-bits <number>', 'serial line: 1 or 2; default 1').argParser(Number))
-    .addOption(choice('--rts <rts>', 'serial line: request to send; default on', ['on', 'off', 'sending']))
-    .addOption(new Option('--message-format <number>', 'serial line: 1, 4 or 5; default 1').argParser(Number))
-    .option('--no-sum-check', 'serial line: without sum check code')
     .option('--pace', 'serial line: characters take their time, at --port too')
     .option('--echo', 'serial line: whoever sends hears it, as on one pair of RS-485')
     .addOption(new Option('--message-wait <ms>', 'serial line: before answers in 3C and 4C').argParser(whole(0, 150)))
@@ -159,10 +145,9 @@ function lineOptionsOf(command: Command, options: LineOptions): LineSimulatorOpt
   return {
     ...(isChosen ? { profile: options.profile } : {}),
     stations: Object.fromEntries(stations.map((number) => [number, station])),
-    ...definedOf({ messageFormat, asciiXy, messageWait, timeout: silence }),
+    ...definedOf({ messageFormat, sumCheck, asciiXy, messageWait, timeout: silence }),
     // The line says which ones there are.
     ...(frame === undefined ? {} : { frames: [frame as NonNullable<LineSimulatorOptions['frames']>[number]] }),
-    sumCheck,
     echo,
     pace: pace ? speed : false,
     host,
@@ -177,13 +162,6 @@ function speedOf({ baudRate, dataLength, parity, stopBits, rts, messageFormat, s
     ...usual,
     ...definedOf({ baudRate, dataLength, parity, stopBits, rts: serial === undefined ? undefined : rts }),
   }
-}
-
-type Defined<T> = { [K in keyof T]?: Exclude<T[K], undefined> }
-
-function definedOf<T extends object>(given: T): Defined<T> {
-  // Only the names without a value are left out.
-  return Object.fromEntries(Object.entries(given).filter(([, value]) => value !== undefined)) as Defined<T>
 }
 
 function show(terminal: Terminal, line: LineSimulator, options: LineOptions): void {

@@ -67,6 +67,8 @@ export interface ClientProtocol {
   readonly lineCost?: LineCost | undefined
   /** The command as the frame says it, with its number, as people find it in the manual: `Read Type Name (0101)`. */
   nameOf(command: Command): string
+  /** Turns the global signal of the station on or off, or that of all on the line; absent where there is none. */
+  readonly globalSignal?: (on: boolean, to: 'station' | 'all') => Exchange<unknown>
   /** Reads a frame that came unasked; absent where none ever does. */
   readonly readUnasked?: (frame: RequestFrame) => UnaskedFrame
   /** Bytes of the frame of an answer with this body. */

@@ -6,11 +6,13 @@ import * as simulation from '../../src/entry/simulator'
 import {
   createLineSimulator,
   createPlcSimulator,
+  type LineSimulator,
   type LineSimulatorOptions,
   type PlcSimulator,
   type PlcSimulatorOptions,
 } from '../../src/entry/simulator'
 import * as plc from '../../src/index'
+import { type TtyPair, ttyPair } from '../support/tty-pair'
 import type { Fence } from './markdown'
 
 type Module = Readonly<Record<string, unknown>>
@@ -21,6 +23,9 @@ const IMPORT = /^import (\{[^}]*\}) from '([^']+)'$/gm
 const READERS_PORT = 5010
 /** And an FX3, which speaks 1E only. */
 const READERS_FX3_PORT = 5551
+/** Two stations on a serial line, at a port of the computer and behind a device server. */
+const READERS_SERIAL_PORT = '/dev/ttyUSB0'
+const READERS_DEVICE_SERVER = '192.168.3.80:4001'
 
 /** A simulated PLC, or a line of them. */
 type Simulated = Pick<PlcSimulator, 'tcp' | 'close'> & Partial<Pick<PlcSimulator, 'udp'>>
@@ -28,6 +33,8 @@ type Simulated = Pick<PlcSimulator, 'tcp' | 'close'> & Partial<Pick<PlcSimulator
 /** Opens simulated PLCs and gives a program the package with its addresses led to them. */
 export class Bench {
   readonly #simulators = new Map<Simulated, number | undefined>()
+  #line: LineSimulator | undefined
+  #pair: TtyPair | undefined
 
   async open(): Promise<void> {
     const simulator = createPlcSimulator({
@@ -43,15 +50,27 @@ export class Bench {
     const fx3 = createPlcSimulator({ profile: 'fx3' })
     await fx3.listen()
     this.#simulators.set(fx3, READERS_FX3_PORT)
+    this.#pair = await ttyPair()
+    this.#line = createLineSimulator({
+      messageFormat: 4,
+      stations: { 1: {}, 2: {} },
+      serial: { path: this.#pair.far },
+      tcp: {},
+    })
+    await this.#line.listen()
   }
 
   async close(): Promise<void> {
-    await Promise.all([...this.#simulators.keys()].map((simulator) => simulator.close()))
+    await Promise.all([...this.#simulators.keys(), this.#line].map((simulator) => simulator?.close()))
+    await this.#pair?.close()
     this.#simulators.clear()
   }
 
   /** `192.168.3.39:5010`, as it is typed on a command line, led to the simulated PLC; any other text as it is. */
   addressOf(text: string): string {
+    if (text === READERS_SERIAL_PORT && this.#pair !== undefined) return this.#pair.near
+    const server = this.#line?.tcp
+    if (text === READERS_DEVICE_SERVER && server !== undefined) return `${server.host}:${server.port}`
     const [, port] = /^192\.168\.3\.\d+:(\d+)$/.exec(text) ?? []
     if (port === undefined) return text
     const { host, port: here } = this.#ledHere({ host: '', port: Number(port) })

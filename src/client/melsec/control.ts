@@ -2,7 +2,7 @@
 
 import { hex } from '../../basics/hex'
 import type { OptionNames } from '../../basics/option-checks'
-import { checkBooleans } from '../../basics/option-checks'
+import { badOption, checkBooleans, oneOf } from '../../basics/option-checks'
 import { shown } from '../../basics/show'
 import { ProtocolError, RequestError } from '../../errors'
 import type { Echo, Exchange, ResponseFrame } from '../../link/link'
@@ -51,9 +51,16 @@ export interface LatchClearOptions extends CallOptions {
   readonly value?: 0 | 1
 }
 
+/** What `control.globalSignal()` may say. */
+export interface GlobalSignalOptions extends CallOptions {
+  /** Whose it is; default `station`: the client's own. */
+  readonly to?: 'station' | 'all'
+}
+
 const STOP_OPTIONS: OptionNames<Omit<StopOptions, keyof CallOptions>> = { verify: true }
 const RUN_OPTIONS: OptionNames<Omit<RunOptions, keyof CallOptions>> = { force: true, clear: true, verify: true }
 const PAUSE_OPTIONS: OptionNames<Omit<PauseOptions, keyof CallOptions>> = { force: true, verify: true }
+const GLOBAL_SIGNAL_OPTIONS: OptionNames<Omit<GlobalSignalOptions, keyof CallOptions>> = { to: true }
 const LATCH_CLEAR_OPTIONS: OptionNames<Omit<LatchClearOptions, keyof CallOptions>> = { value: true }
 
 /**
@@ -79,6 +86,14 @@ export interface Control {
   latchClear(options?: LatchClearOptions): Promise<void>
   /** Resets the CPU, which must be in STOP and permit it by parameter. Silence and a lost connection are its success. */
   reset(options?: CallOptions): Promise<void>
+  /**
+   * The global signal of a serial channel (SM8680 of an FX5's channel 1, M8126 of an FX3), on or off: of this station, or of
+   * all stations of the line at once. 1C frames only (FX5 communication manual 44.6). Nobody answers what is for all, so that
+   * it ends when it is sent, and nobody knows who has heard it.
+   * @throws RequestError UNSUPPORTED in other frames; nothing is sent.
+   * @example await plc.control.globalSignal(true, { to: 'all' })
+   */
+  globalSignal(on: boolean, options?: GlobalSignalOptions): Promise<void>
 }
 
 /** Who the PLC says it is. */
@@ -108,6 +123,9 @@ export interface IdentityWarning {
 /** What remote control is made of. */
 export interface ControlParts {
   readonly send: SendCommand
+  /** Sends what is no command of the SLMP set. */
+  readonly sendExchange: (exchange: Exchange<unknown>, call: CallOptions) => Promise<unknown>
+  readonly protocol: Pick<ClientProtocol, 'globalSignal'>
   /** Of the frame that is spoken: 1E reaches less. */
   readonly profile: Profile
   readonly clock: Clock
@@ -175,6 +193,17 @@ export function controlOf(parts: ControlParts): Control {
     },
     reset: async (call = {}) => {
       await send(commands.remoteReset, {}, call)
+    },
+    globalSignal: async (on, options = {}) => {
+      const call = callOptionsOf(options, GLOBAL_SIGNAL_OPTIONS)
+      if (typeof on !== 'boolean') badOption('on', `on is ${shown(on)}; it must be true or false.`)
+      const to = oneOf('to', options.to ?? 'station', ['station', 'all'])
+      const { globalSignal } = parts.protocol
+      if (globalSignal === undefined) {
+        const message = 'Only 1C frames have the global signal: use frame 1C on a serial line of an FX5 or FX3.'
+        throw new RequestError('UNSUPPORTED', message, 'frame')
+      }
+      await parts.sendExchange(globalSignal(on, to), call)
     },
   }
 }

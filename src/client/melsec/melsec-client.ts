@@ -110,6 +110,7 @@ export class MelsecPlcClient implements MelsecClient {
       queueLimit: settings.queueLimit,
       connectTimeout: settings.connectTimeout,
       timeout: settings.timeout,
+      messageWait: settings.serial?.messageWait ?? 0,
       unlocking: { exchange: () => this.#password.unlock(), isFinal: isPasswordRefusal, isLocked: isPortLocked },
       probes: probesOf(this.#protocol, settings.probe),
       explainSilence: (silence) =>
@@ -129,7 +130,14 @@ export class MelsecPlcClient implements MelsecClient {
     this.#registration = new Registration(() => this.#connection.generation)
     this.#send = async (command, message, call) => this.request(command, message, callOptionsOf(call))
     const { clock, timeout } = settings
-    this.control = controlOf({ send: this.#send, profile: this.#protocol.profile, clock, timeout })
+    this.control = controlOf({
+      send: this.#send,
+      sendExchange: (exchange, call) => this.#call(call).send(exchange),
+      protocol: this.#protocol,
+      profile: this.#protocol.profile,
+      clock,
+      timeout,
+    })
     this.labels = labelsOf({
       call: (call) => {
         const { send } = this.#call(call)

@@ -1,4 +1,5 @@
 // The options of a serial line: defaults and checks. One PLC has them among its client's, several that share a line on it.
+import { definedOf } from '../../basics/defined'
 import { checkNames, type OptionNames, oneOf, wholeNumber } from '../../basics/option-checks'
 import { shown } from '../../basics/show'
 import { RequestError } from '../../errors'
@@ -19,11 +20,22 @@ import { lineTime, type SerialOptions, type SerialSettings, serialSettings } fro
 export interface SerialPortOptions extends Omit<SerialOptions, 'path'> {
   /** `COM3`, `/dev/ttyUSB0`. */
   readonly path?: string
+  /**
+   * From the last character of a request until the first one of its answer, after which the PLC counts as silent: the longest
+   * scan of its program, at least. Default 1000.
+   */
+  readonly answerTime?: number
   /** Between two characters of an answer, after which the rest does not come; default 100, or more at low speeds. */
   readonly betweenBytes?: number
   /** Without a character, after which nothing asked before is answered any more; default 100, or more at low speeds. */
   readonly quiet?: number
+  /** From the end of an answer until the next request, also to another PLC; default 0. */
+  readonly gap?: number
+  /** Whether the line gives back what is sent, as converters with one pair do; default `auto`: the first request shows it. */
+  readonly echo?: (typeof ECHO)[number]
 }
+
+const ECHO = ['auto', 'always', 'never'] as const
 
 /** What the manual leaves open (FX5 communication manual 42): the defaults are what its examples show. */
 export type SerialFrameDetails = Partial<
@@ -57,8 +69,11 @@ const PORT_NAMES = {
   parity: true,
   stopBits: true,
   rts: true,
+  answerTime: true,
   betweenBytes: true,
   quiet: true,
+  gap: true,
+  echo: true,
 } as const satisfies OptionNames<SerialPortOptions>
 
 const DETAIL_NAMES = {
@@ -74,6 +89,8 @@ const LONGEST = 60_000
 const PATIENCE = 10
 /** ms: adapters and device servers hand on what they have after a while only. */
 const LEAST_TIME = 100
+/** ms: a long scan, and the delays of adapters. */
+const ANSWER_TIME = 1000
 /** Of a port behind a device server: errors of its settings name no path. */
 const ELSEWHERE = 'a device server'
 
@@ -88,13 +105,17 @@ export function settleSerialLine(
   const frame = frameOf(options, usual)
   const port = portOf(options.serial ?? {}, frame.format)
   const least = Math.max(LEAST_TIME, Math.ceil(lineTime(PATIENCE, port)))
-  const { betweenBytes = least, quiet = least } = options.serial ?? {}
+  const { answerTime = ANSWER_TIME, betweenBytes = least, quiet = least, gap = 0, echo = 'auto' } = options.serial ?? {}
   return {
     frame,
     port,
     recovery: {
+      byteTime: lineTime(1, port),
+      answerTime: wholeNumber('serial.answerTime', answerTime, 1, LONGEST),
       betweenBytes: wholeNumber('serial.betweenBytes', betweenBytes, 1, LONGEST),
       quiet: wholeNumber('serial.quiet', quiet, 1, LONGEST),
+      gap: wholeNumber('serial.gap', gap, 0, LONGEST),
+      echo: oneOf('serial.echo', echo, ECHO),
     },
   }
 }
@@ -115,7 +136,8 @@ function frameOf(options: SerialLineFormat, usual: SerialFrameName): SerialLineS
 
 function portOf(given: SerialPortOptions, format: SerialFormat): SerialSettings {
   checkNames('serial.', given, PORT_NAMES)
-  const { betweenBytes: _, quiet: __, path = ELSEWHERE, ...rest } = given
+  const { baudRate, dataLength, parity, stopBits, rts, path = ELSEWHERE } = given
+  const rest = definedOf({ baudRate, dataLength, parity, stopBits, rts })
   const usual = format === 5 ? { dataLength: 8 as const } : {}
   const port = named(() => serialSettings({ ...usual, ...rest, path }))
   if (format !== 5 || port.dataLength === 8) return port

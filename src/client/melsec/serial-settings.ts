@@ -1,4 +1,5 @@
 // What the options of a client say about a serial line: its own one, or one that it shares.
+import { definedOf } from '../../basics/defined'
 import { oneOf, wholeNumber } from '../../basics/option-checks'
 import type { DataCode } from '../../codec/codec'
 import { RequestError } from '../../errors'
@@ -120,11 +121,4 @@ export function transportOf({ transport, serial, line, openTransport }: MelsecCl
     )
   }
   return chosen
-}
-
-type Defined<T> = { readonly [K in keyof T]?: Exclude<T[K], undefined> }
-
-/** What was left out stays out. */
-function definedOf<T extends object>(options: T): Defined<T> {
-  return Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined)) as Defined<T>
 }

@@ -48,6 +48,7 @@ export interface OtherSet<H extends Head> {
   /** How the frame calls the command, with its number or name. */
   readonly nameOf: (name: SaidName) => string
   readonly explainer: (shownAs: ShownAs) => FrameExplainer
+  readonly globalSignal?: NonNullable<ClientProtocol['globalSignal']>
 }
 
 export const asItIs = (message: Message): Message => message
@@ -58,6 +59,7 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
   readonly profile: Profile
   readonly code: DataCode
   readonly lineCost: LineCost | undefined
+  readonly globalSignal?: NonNullable<ClientProtocol['globalSignal']>
   /** The frame's own commands, also those that the SLMP set does not have. */
   readonly own: HeadProtocol<H>
   readonly #set: OtherSet<H>
@@ -69,6 +71,7 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
     this.profile = set.profile
     this.code = set.code
     this.lineCost = lineCostOf({ framing: this.framing, head: set.anyHead })
+    if (set.globalSignal !== undefined) this.globalSignal = set.globalSignal
   }
 
   answerBytes(body: number): number {

@@ -109,7 +109,7 @@ export const oneCCommands = declare({
   GW: {
     title: 'Global signal ON/OFF',
     code: 0x4757,
-    effect: 'write',
+    effect: 'control',
     manual: 'FX5 communication manual 44.6',
     request: { on: value(onOff, 'the global signal of the channel (serial-channels.ts)') },
     response: {},

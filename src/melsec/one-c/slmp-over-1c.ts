@@ -8,6 +8,7 @@ import { type Said, SlmpOver, saidAlike } from '../a-compatible/slmp-over'
 import type { DeviceWindow } from '../a-compatible/windows'
 import type { ClientProtocol, ProtocolOptions } from '../client-protocol'
 import { otherSetExplainer } from '../explain/other-set-explainer'
+import { allStations } from '../frame/serial-frames'
 import { serialFraming } from '../frame/serial-framing'
 import { profileOver1c, windowsOver1c } from '../profiles/over-1c'
 import { asciiXyOf, type Profile } from '../profiles/profile'
@@ -25,7 +26,7 @@ export interface Over1cOptions<H extends OneCHead> extends Omit<OneCOptions<H>, 
 const names = { frame: '1C', instead: '3C or 4C' } as const
 
 /**
- * The global signal and whatever else only 1C has is reached by `own`.
+ * Whatever else only 1C has is reached by `own`.
  * @throws RequestError BAD_OPTION when the PLC does not take 1C, or not with these digits of X and Y
  * @example protocol.own.exchange(oneCCommands.GW, { on: true })
  */
@@ -37,13 +38,16 @@ export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): S
   const windows = windowsOver1c(profile)
   const asciiXy = asciiXyOf(profile, options.asciiXy)
   const narrowed = profileOver1c(profile)
+  const toAll = oneCProtocol({ ...options, head: { ...head, ...allStations }, windows, asciiXy })
+  const protocol = oneCProtocol({ ...options, windows, asciiXy })
   return new SlmpOver({
     ...names,
-    protocol: oneCProtocol({ ...options, windows, asciiXy }),
+    protocol,
     profile: narrowed,
     code: 'ascii',
     anyHead: head,
     said: (name, message) => saidIn1c(windows, name, message),
+    globalSignal: (on, to) => (to === 'all' ? toAll : protocol).exchange(oneCCommands.GW, { on }),
     nameOf(name) {
       const [first] = over1c[name]
       return `${oneCCommands[first].title} (${first})`
