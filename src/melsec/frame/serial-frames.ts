@@ -89,7 +89,7 @@ export function factsOfSerial(frame: SerialFrameName): SerialFrameFacts {
 }
 
 export function isSerialFrame(name: string): name is SerialFrameName {
-  return Object.hasOwn(serialFrameFacts, name)
+  return serialFrameNames.some((one) => one === name)
 }
 
 /** @throws RequestError BAD_OPTION when the frame does not have the format */
