@@ -63,8 +63,8 @@ export type { ClientEvents, OnDemand, UnsolicitedFrame } from './client/melsec/c
 export type {
   ClearMode,
   Control,
-  Identity,
   GlobalSignalOptions,
+  Identity,
   IdentityWarning,
   LatchClearOptions,
   PauseOptions,

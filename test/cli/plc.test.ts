@@ -371,7 +371,10 @@ describe('control', () => {
   })
 
   test.each([
-    [['control', 'explode', '--yes'], /choose run, stop, pause, latch-clear, reset, global-on, global-off, clear-error, self-test/],
+    [
+      ['control', 'explode', '--yes'],
+      /choose run, stop, pause, latch-clear, reset, global-on, global-off, clear-error, self-test/,
+    ],
     [['control', 'stop', '--force', '--yes'], /takes no --force/],
     [['control', 'reset', '--verify', '--yes'], /takes no --verify/],
     [['control', 'run', '--clear', 'some', '--yes'], /keep, exceptLatched, all/],
