@@ -32,6 +32,8 @@ export interface SerialProtocolOptions extends Omit<SerialFrameOptions, 'frame'>
   readonly head: SerialHead
   /** 1C: ms before the PLC answers at the earliest, 0 to 150 in steps of 10. */
   readonly messageWait: number
+  /** Waits of each request in which the line carries nothing, as bytes that it could carry; default 0. */
+  readonly turnRound?: number
 }
 
 /** A frame that came unasked. */

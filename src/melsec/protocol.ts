@@ -70,6 +70,8 @@ export interface MelsecProtocolOptions<H extends Head> extends Omit<CommandSetOp
   readonly head: H
   /** Head of what is for the connected station only (`to` of the declaration); default `head`, where that is the route. */
   readonly connectedHead?: H
+  /** On a serial line: waits of each request, as bytes that the line could carry. */
+  readonly turnRound?: number
 }
 
 /** What a call may say beside the message. */
@@ -376,10 +378,10 @@ export class MelsecProtocol<H extends Head> extends SlmpCommandSet {
   readonly #head: H
   readonly #connectedHead: H
 
-  constructor({ framing, head, connectedHead = head, ...options }: MelsecProtocolOptions<H>) {
+  constructor({ framing, head, connectedHead = head, turnRound = 0, ...options }: MelsecProtocolOptions<H>) {
     super(framing.body === undefined ? options : { ...options, body: framing.body })
     this.framing = framing
-    this.lineCost = lineCostOf({ framing, head })
+    this.lineCost = lineCostOf({ framing, head }, turnRound)
     this.#head = head
     this.#connectedHead = connectedHead
   }

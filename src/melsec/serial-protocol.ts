@@ -16,12 +16,13 @@ export interface SerialOptions extends ProtocolOptions {
  */
 export function serialProtocol(options: SerialOptions): ClientProtocol {
   const { frame, profile, asciiXy, asciiZr } = options
-  const { head, ...serial } = serialOptionsOf(options)
+  const { head, turnRound = 0, ...serial } = serialOptionsOf(options)
   const framing = serialFraming({ ...serial, frame })
   const { code } = framing
   const protocol = new MelsecProtocol<SerialHead>({
     framing,
     head,
+    turnRound,
     connectedHead: serialRoute(frame, { station: head.station }),
     ...(head.moduleIo === undefined ? {} : { moduleIo: head.moduleIo }),
     profile,

@@ -3,6 +3,7 @@ import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
 import { type ParsedItem, parseItem } from '../../src/client/item/item'
 import type { PlainValue } from '../../src/client/item/item-value'
+import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { PlanProtocol } from '../../src/client/plan/limit'
 import { type DeviceRead, planRead } from '../../src/client/plan/read'
 import { planWrite } from '../../src/client/plan/write'
@@ -82,6 +83,33 @@ describe('reading costs the fewest characters that any distribution over request
       }),
       { numRuns: 100 },
     )
+  })
+})
+
+describe('a wait of each request counts as the characters that the line could carry meanwhile', () => {
+  test('in a plan', async () => {
+    const turnRound = 31
+    const protocol = over1c(1, true, turnRound)
+    const characters = characterCost(protocol)
+    const costOf = (exchange: Exchange<unknown>) => characters(exchange) + turnRound
+    await fc.assert(
+      fc.asyncProperty(fx5Items, async (texts) => {
+        const least = leastReading(parsed(texts), protocol, GAP, costOf)
+        fc.pre(Number.isFinite(least))
+        const reads = await readsOf(texts, protocol, GAP)
+        expect(reads.reduce((sum, read) => sum + costOf(read), 0)).toBe(least)
+      }),
+      { numRuns: 50 },
+    )
+  })
+
+  test('of a client whose converter needs the PLC to wait, or a pause between requests', () => {
+    const requests = (messageWait: number, gap: number) => {
+      const serial = { path: 'never opened', gap } as const
+      const client = createMelsecClient({ serial, profile: 'fx5-serial', frame: '1C', messageWait })
+      return client.plan(['D0', 'D12']).describe().requests.length
+    }
+    expect([requests(0, 0), requests(70, 0), requests(0, 70)]).toEqual([2, 1, 1])
   })
 })
 

@@ -8,12 +8,13 @@ import type { Profile } from '../../src/melsec/profiles/profile'
 import { profiles } from '../../src/melsec/profiles/profiles'
 import { MelsecProtocol } from '../../src/melsec/protocol'
 
-export function over1c(format: 1 | 4 = 1, sumCheck = true): PlanProtocol {
+export function over1c(format: 1 | 4 = 1, sumCheck = true, turnRound = 0): PlanProtocol {
   return protocolOver1c({
     profile: profiles['fx5-serial'],
     framing: serialFraming({ frame: '1C', format, sumCheck }),
     head: serialRoute('1C'),
     asciiXy: 'octal',
+    turnRound,
   })
 }
 

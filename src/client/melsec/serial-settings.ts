@@ -6,6 +6,7 @@ import { RequestError } from '../../errors'
 import type { SerialProtocolOptions } from '../../melsec/client-protocol'
 import { isSerialFrame, serialFormatCodes, serialRoute } from '../../melsec/frame/serial-frames'
 import { type FrameName, type Profile, type TransportName, transportNames } from '../../melsec/profiles/profile'
+import { lineTime } from '../../transport/serial'
 import type { MelsecClientOptions } from './options'
 import type { SerialLink } from './serial-diagnosis'
 import { SerialLine, serialLineOf } from './serial-line'
@@ -88,7 +89,9 @@ export function serialOf(
     const message = `In a ${frame} frame the wait before an answer is a parameter of the PLC: leave messageWait out.`
     throw new RequestError('BAD_OPTION', message, 'messageWait')
   }
-  return { ...format, messageWait: wait, head: serialRoute(frame, route, profile.serial?.reach) }
+  const { port, recovery } = line.settings
+  const turnRound = Math.round((wait + (recovery.gap ?? 0)) / lineTime(1, port))
+  return { ...format, messageWait: wait, turnRound, head: serialRoute(frame, route, profile.serial?.reach) }
 }
 
 /** What both sides of a serial line must have alike. */

@@ -44,6 +44,8 @@ export interface OtherSet<H extends Head> {
   readonly code: DataCode
   /** Of an answer, whatever it says: heads are of one length. */
   readonly anyHead: H
+  /** On a serial line: waits of each request, as bytes that the line could carry. */
+  readonly turnRound?: number
   readonly said: (name: SaidName, message: Message) => Said
   /** How the frame calls the command, with its number or name. */
   readonly nameOf: (name: SaidName) => string
@@ -70,7 +72,7 @@ export class SlmpOver<H extends Head> implements ClientProtocol {
     this.framing = set.protocol.framing
     this.profile = set.profile
     this.code = set.code
-    this.lineCost = lineCostOf({ framing: this.framing, head: set.anyHead })
+    this.lineCost = lineCostOf({ framing: this.framing, head: set.anyHead }, set.turnRound)
     if (set.globalSignal !== undefined) this.globalSignal = set.globalSignal
   }
 

@@ -21,6 +21,8 @@ import { oneCRules } from './rules'
 /** How a client speaks 1C to its PLC. */
 export interface Over1cOptions<H extends OneCHead> extends Omit<OneCOptions<H>, 'windows'> {
   readonly profile: Profile
+  /** Waits of each request, as bytes that the line could carry; default 0. */
+  readonly turnRound?: number
 }
 
 const names = { frame: '1C', instead: '3C or 4C' } as const
@@ -31,7 +33,7 @@ const names = { frame: '1C', instead: '3C or 4C' } as const
  * @example protocol.own.exchange(oneCCommands.GW, { on: true })
  */
 export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): SlmpOver<H> {
-  const { profile, head, framing } = options
+  const { profile, head, framing, turnRound = 0 } = options
   if (!profile.frames.includes('1C')) {
     throw new RequestError('BAD_OPTION', `${profile.title} takes no 1C frame.`, 'frame')
   }
@@ -46,6 +48,7 @@ export function protocolOver1c<H extends OneCHead>(options: Over1cOptions<H>): S
     profile: narrowed,
     code: 'ascii',
     anyHead: head,
+    turnRound,
     said: (name, message) => saidIn1c(windows, name, message),
     globalSignal: (on, to) => (to === 'all' ? toAll : protocol).exchange(oneCCommands.GW, { on }),
     nameOf(name) {
@@ -69,9 +72,9 @@ export function clientProtocolOver1c(options: ProtocolOptions): ClientProtocol {
   const { profile } = options
   // The digits are settled already, also where the family has no setting.
   const asciiXy = profile.asciiXy === 'setting' ? options.asciiXy : undefined
-  const { head, messageWait, ...serial } = serialOptionsOf(options)
+  const { head, messageWait, turnRound = 0, ...serial } = serialOptionsOf(options)
   const framing = serialFraming({ ...serial, frame: '1C' })
-  return protocolOver1c({ profile, asciiXy, head, messageWait, framing })
+  return protocolOver1c({ profile, asciiXy, head, messageWait, turnRound, framing })
 }
 
 function saidIn1c(windows: readonly DeviceWindow[], name: SaidName, given: Message): Said {
