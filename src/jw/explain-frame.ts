@@ -34,6 +34,9 @@ export interface ExplainJwOptions {
 
 const { bytes: bytesOf, fixed, u8 } = field
 
+/** Behind the ID and ATTR. */
+const COMMAND_AT = 2
+
 const requestHead = { id: fixed(ID.request, 1), attr: fixed(0, 1), command: u8() } as const satisfies Shape
 const responseHead = {
   id: fixed(ID.response, 1),
@@ -134,12 +137,14 @@ function addressText({ file, address, extended }: JwAddress): string {
 }
 
 function explainRequest(explainer: Explainer, options: ExplainJwOptions, total: number): FrameExplanation {
+  // Also of a head that is wrong: what is not read may be the password.
+  const asked = commandOf(explainer.ahead()[COMMAND_AT])
+  const secret = asked !== undefined && hasSecret(asked.request)
   const head = explainer.read(requestHead, describeJw)
   const command = commandOf(head.command)
   const about = { frame: 'JW', code: 'binary', direction: 'request' } as const
-  if (command === undefined) return unknown(explainer, { ...about, title: 'JW request' }, total)
+  if (command === undefined) return unknown(explainer, { ...about, title: 'JW request' }, total, secret)
   explainer.read(command.request, describeJw, formOf(options), splitBytes)
-  const secret = hasSecret(command.request)
   return end(explainer, { ...about, title: `JW request: ${command.title}`, command: command.name }, total, secret)
 }
 
@@ -151,10 +156,10 @@ function end(explainer: Explainer, about: About, total: number, secret = false):
   return explainer.end(about, total, secret)
 }
 
-function unknown(explainer: Explainer, about: About, total: number): FrameExplanation {
+function unknown(explainer: Explainer, about: About, total: number, secret = false): FrameExplanation {
   if (explainer.fault === undefined)
     explainer.take(explainer.remaining, { name: 'data', kind: 'bytes', text: 'data that is not known here' })
-  return explainer.end(about, total)
+  return explainer.end(about, total, secret)
 }
 
 function explainResponse(explainer: Explainer, options: ExplainJwOptions, total: number): FrameExplanation {

@@ -123,7 +123,7 @@ describe('words', () => {
     expect(rows.at(-1)?.text).toBe('08H DTMR (BCD), 0AH UTMR (BCD), 03H not printed')
   })
 
-  test.each(['4700fc0041423132', '4700fc00414231', '4700fc004142312d', '4700fc0341423132'])(
+  test.each(['4700fc0041423132', '4701fc0041423132', '4700fc00414231', '4700fc004142312d', '4700fc0341423132'])(
     'of %s never show the password',
     (hex) => {
       const text = formatExplanation(explainJwFrame(Buffer.from(hex, 'hex')))
