@@ -31,7 +31,7 @@ function problemOf(name: string, field: Field, shape: Shape, request: Shape | un
     case 'spare':
       return Number.isInteger(field.size) && field.size > 0 ? undefined : 'has no size'
     case 'count':
-      return boundsProblem(field, field.width) ?? derivedProblem(name, field, shape)
+      return boundsProblem(field, field.width) ?? derivedProblem(name, field, shape) ?? mostProblem(field, request)
     case 'echo':
       return echoProblem(fieldIn(request, field.of), field.of)
     case 'rest':
@@ -104,6 +104,14 @@ function derivedProblem(name: string, { of }: CountField, shape: Shape): string 
   const counted = fieldIn(shape, of)
   if (counted === undefined) return `counts ${of}, which is not beside it`
   return 'count' in counted && counted.count === name ? undefined : `counts ${of}, which is not counted by it`
+}
+
+function mostProblem({ atMost }: CountField, request: Shape | undefined): string | undefined {
+  if (atMost === undefined) return undefined
+  const most = fieldIn(request, atMost)
+  return most !== undefined && most.kind in WIDTH
+    ? undefined
+    : `is at most ${atMost}, which is no number of the request`
 }
 
 function echoProblem(repeated: Field | undefined, of: string): string | undefined {

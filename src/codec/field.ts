@@ -63,6 +63,8 @@ export interface CountField extends Documented, Bounded {
   readonly of: string
   /** A number that stands for no elements beside 0; only read, never written. */
   readonly noneToo?: number
+  /** Of an answer: the number of the request that it cannot exceed. */
+  readonly atMost?: string
 }
 /** Repeats a field of the request; derived, checked on reading, invisible in the message. */
 export interface EchoField extends Documented {
@@ -231,7 +233,7 @@ export const spare = (size: number, doc?: string) => ({ kind: 'spare', size, ...
 export const countOf = <const N extends string>(
   of: N,
   width: Width = 2,
-  options: Bounded & Documented & Pick<CountField, 'noneToo'> = {},
+  options: Bounded & Documented & Pick<CountField, 'noneToo' | 'atMost'> = {},
 ) => ({ kind: 'count', of, width, ...options }) as const
 export const echo = <const N extends string>(of: N) => ({ kind: 'echo', of }) as const
 export const value = <T>(codec: ValueCodec<T>, doc?: string) =>

@@ -6,6 +6,7 @@ import {
   type BulkField,
   boundsOf,
   type Charset,
+  type CountField,
   type Field,
   type IntegerField,
   isVisible,
@@ -87,7 +88,7 @@ function put(
       writer.bytes(new Uint8Array(field.size))
       return
     case 'count':
-      writer.uint(countToWrite(field, lengthOf(message[field.of], field.of)), field.width)
+      writer.uint(countToWrite(field, lengthOf(message[field.of], field.of), context), field.width)
       return
     case 'echo':
       putEcho(field.of, writer, context)
@@ -205,7 +206,7 @@ function isMultiple({ multipleOf }: { readonly multipleOf?: number }, number: nu
   return multipleOf === undefined || number % multipleOf === 0
 }
 
-function countToWrite(field: Extract<Field, { kind: 'count' }>, length: number): number {
+function countToWrite(field: CountField, length: number, context: Context | undefined): number {
   const max = field.max ?? 2 ** (8 * field.width) - 1
   if (length < (field.min ?? 0) || length > max) {
     badMessage(`${field.of} has ${length} element(s), must have ${field.min ?? 0} to ${max}`)
@@ -213,7 +214,14 @@ function countToWrite(field: Extract<Field, { kind: 'count' }>, length: number):
   if (!isMultiple(field, length)) {
     badMessage(`${field.of} has ${length} element(s), must have a multiple of ${field.multipleOf}`)
   }
+  const most = mostAsked(field, context)
+  if (length > most) badMessage(`${field.of} has ${length} element(s), the request wants no more than ${most}`)
   return length === field.zeroMeans ? 0 : length
+}
+
+/** How many the request wants, where that bounds the answer. */
+function mostAsked({ atMost }: CountField, context: Context | undefined): number {
+  return atMost === undefined ? Number.POSITIVE_INFINITY : Number(asked(context).message[atMost])
 }
 
 function lengthOf(given: unknown, name: string): number {
@@ -317,7 +325,7 @@ function decodeMessage(shape: Shape, reader: Reader, context: Context | undefine
       const field = shape[name] as Field
       if (field.kind === 'count') {
         counts ??= {}
-        counts[field.of] = readCount(field, reader)
+        counts[field.of] = readCount(field, reader, context)
       } else if (field.kind === 'fixed') readFixed(field, name, reader)
       else if (field.kind === 'spare') readSpare(field.size, reader)
       else if (field.kind === 'echo') readEcho(field.of, name, reader, context)
@@ -394,7 +402,7 @@ function readInteger(field: IntegerField, reader: Reader): number {
   return number
 }
 
-function readCount(field: Extract<Field, { kind: 'count' }>, reader: Reader): number {
+function readCount(field: CountField, reader: Reader, context: Context | undefined): number {
   const read = reader.uint(field.width)
   if (read === field.noneToo) return 0
   const count = read === 0 && field.zeroMeans !== undefined ? field.zeroMeans : read
@@ -404,6 +412,8 @@ function readCount(field: Extract<Field, { kind: 'count' }>, reader: Reader): nu
   if (!isMultiple(field, count)) {
     reader.fail('BAD_FIELD', `${count} ${field.of}, must be a multiple of ${field.multipleOf}`)
   }
+  const most = mostAsked(field, context)
+  if (count > most) reader.fail('BAD_FIELD', `${count} ${field.of}, asked were no more than ${most}`)
   return count
 }
 
@@ -428,7 +438,9 @@ function readEcho(of: string, name: string, reader: Reader, context: Context | u
   const { shape, message } = asked(context)
   const field = shape[of] as Field
   const found =
-    field.kind === 'count' ? readCount(field, reader) : get(field as VisibleField, of, undefined, {}, reader, undefined)
+    field.kind === 'count'
+      ? readCount(field, reader, undefined)
+      : get(field as VisibleField, of, undefined, {}, reader, undefined)
   if (!same(found, sentIn(field, of, message))) reader.fail('ECHO_MISMATCH', `${name} does not repeat the request`)
 }
 

@@ -147,6 +147,7 @@ function sizeOf(
   if (typeof found === 'number') return found
   if (found !== undefined) return (found as ArrayLike<unknown>).length
   if (derived?.kind !== 'count') throw new Error(`nothing tells the count of ${name}`)
-  const made = generate(() => fc.integer({ min: derived.min ?? 0, max: MOST }))
+  const most = derived.atMost === undefined ? MOST : Math.min(MOST, Number(context?.message[derived.atMost]))
+  const made = generate(() => fc.integer({ min: derived.min ?? 0, max: most }))
   return made - (made % (derived.multipleOf ?? 1))
 }

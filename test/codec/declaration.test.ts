@@ -79,6 +79,12 @@ describe('declare', () => {
       { b: each('a', u8(), { points: u16() }) },
       'b repeats an element of a, and points is its own',
     ],
+    [
+      'at most what the request does not say',
+      { b: words(1) },
+      { n: countOf('a', 1, { atMost: 'b' }), a: words('n') },
+      'n is at most b, which is no number of the request',
+    ],
     ['more than decimal digits can say', { a: u8({ bcd: true, max: 100 }) }, {}, 'a goes up to 100, which its digits'],
     ['a range upside down', { a: u8({ min: 3, max: 2 }) }, {}, 'a has the range 3 to 2'],
     ['a range wider than the field', { a: u8({ max: 256 }) }, {}, 'a goes up to 256, which its width cannot hold'],

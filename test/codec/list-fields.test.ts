@@ -189,6 +189,15 @@ describe('an answer that repeats the list of the request', () => {
   })
 })
 
+test('an answer has no more than the request wants', () => {
+  const response = { arrived: countOf('data', 1, { atMost: 'length' }), data: bytes('arrived') }
+  const context = { shape: { length: u8() }, message: { length: 2 } }
+  expect(written(response, { data: [1, 2] }, context)).toBe('020102')
+  expect(readAs(response, '0101', context)).toEqual({ data: Buffer.of(1) })
+  expect(() => written(response, { data: [1, 2, 3] }, context)).toThrow('the request wants no more than 2')
+  expect(() => readAs(response, '03010203', context)).toThrow('3 data, asked were no more than 2')
+})
+
 test('an answer that says its length is told from one whose length the request says', () => {
   const request = { length: u16() }
   const own = { arrived: countOf('data', 2), more: u8(), data: bytes('arrived') }

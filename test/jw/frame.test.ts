@@ -149,6 +149,8 @@ describe('an answer that says how long it is', () => {
   test('is not waited for when it says more than may be, or is about another buffer', () => {
     const head = { command: 0x29 }
     expect(() => exchange.responseLength(head, Buffer.from('0f0100010104', 'hex'))).toThrow('1025 data')
+    const few = jwProtocol().exchange(jwCommands.readRingBuffer, { buffer: 15, function: 1, length: 2 })
+    expect(() => few.responseLength(head, answer.subarray(4))).toThrow('3 data, asked were no more than 2')
     expect(() => exchange.responseLength(head, Buffer.from('0e', 'hex'))).toThrow('does not repeat the request')
   })
 })

@@ -203,7 +203,9 @@ class Maker {
     if (typeof count === 'number') return count
     const derived = Object.values(shape).find((field) => field.kind === 'count' && field.of === name)
     if (derived?.kind === 'count') {
-      const { min = 0, max = 2 ** (8 * derived.width) - 1 } = derived
+      const { min = 0, atMost } = derived
+      const asked = atMost === undefined ? derived.max : Number(this.context?.message[atMost])
+      const max = asked ?? 2 ** (8 * derived.width) - 1
       return multipleAtMost(
         this.generate(() => sizes(min, max)),
         derived.multipleOf,

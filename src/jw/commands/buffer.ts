@@ -62,7 +62,7 @@ export const bufferCommands = {
       buffer: echo('buffer'),
       tag,
       pointer: u16({ doc: 'read pointer of the data (RP)' }),
-      count: countOf('data', 2, { max: 1024, doc: 'bytes read (LR)' }),
+      count: countOf('data', 2, { max: 1024, atMost: 'length', doc: 'bytes read (LR)' }),
       more: u8({ max: 1, doc: '1: there are more that nobody has read' }),
       data: bytes('count'),
     },
