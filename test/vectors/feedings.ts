@@ -90,6 +90,18 @@ function outcomesOf<_H extends Head>(events: readonly SessionEvent[]) {
   })
 }
 
+/**
+ * Lends bytes as a transport does: what becomes of them is looked at before their memory holds something else.
+ * @returns how the request ended, and the kind of every other event
+ */
+function lend(session: Session, bytes: Buffer): unknown[] {
+  const lent = Buffer.from(bytes)
+  session.receive(lent, 1)
+  const outcomes = eventsOf(session).map((event) => (event.kind === 'done' ? outcomesOf([event])[0] : event.kind))
+  lent.fill(0x5a)
+  return outcomes
+}
+
 /** Registers the tests of one frame. `make` runs inside of each. */
 export function testFeedings<H extends Head>(id: string, side: Side, make: () => FrameCase<H>): void {
   test(`${id}: written as printed`, () => {
@@ -165,13 +177,11 @@ function testSession<H extends Head>(id: string, make: () => FrameCase<H>): void
     for (const chunks of cuts(given.bytes).map((cut) => cut.map((chunk) => chunk.length))) {
       const { session, answer } = asking(given, 'stream')
       let at = 0
-      for (const length of chunks) {
-        session.receive(answer.subarray(at, at + length), 1)
+      const outcomes = chunks.flatMap((length) => {
         at += length
-      }
-      const events = eventsOf(session)
-      expect(events).toHaveLength(1)
-      expect(outcomesOf(events)).toEqual([answered(given)])
+        return lend(session, answer.subarray(at - length, at))
+      })
+      expect(outcomes).toEqual([answered(given)])
     }
   })
 
@@ -200,10 +210,11 @@ function testSession<H extends Head>(id: string, make: () => FrameCase<H>): void
     const given = make()
     if (given.framing.recovery === undefined) return
     const { session, answer } = asking(given, 'stream', { quiet: 1, betweenBytes: 1 })
-    for (const byte of Buffer.concat([RUBBISH, answer])) session.receive(Buffer.of(byte), 1)
+    const outcomes = [...Buffer.concat([RUBBISH, answer])].flatMap((byte) => lend(session, Buffer.of(byte)))
     // Silence shows that no more comes, where nothing else does.
     session.timeout(2)
-    expect(outcomesOf(eventsOf(session))).toEqual([answered(given)])
+    const ends = outcomes.filter((outcome) => outcome !== 'stray')
+    expect([...ends, ...outcomesOf(eventsOf(session))]).toEqual([answered(given)])
   })
 
   test(`${id}: one byte short is no answer`, () => {
