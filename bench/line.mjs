@@ -31,6 +31,9 @@ const BITS = 10
 /** Nearer to its time than this a timer is not trusted. */
 const ROUGH = 3
 
+/** ms of characters that come together. */
+const PIECE = 20
+
 /** Calls back at a time that timers are too rough for. */
 function at(time, then) {
   const left = time - performance.now()
@@ -85,11 +88,22 @@ class PacedLine {
     // What brings the PLC to a known state is answered by nothing.
     const answer = bytes.length > 4 ? this.answerTo(Buffer.from(bytes)) : Buffer.alloc(0)
     this.characters += bytes.length + answer.length
-    this.#free = Math.max(performance.now(), this.#free) + (bytes.length + answer.length) * this.byteTime
-    if (answer.length === 0) return
-    at(this.#free, () => {
-      if (!this.#closed) this.#handlers.received(answer)
-    })
+    const begin = Math.max(performance.now(), this.#free) + bytes.length * this.byteTime
+    this.#free = begin + answer.length * this.byteTime
+    if (answer.length > 0) this.#deliver(answer, begin)
+  }
+
+  /** Piece by piece, because a line on which nothing comes counts as silent; the last one at its time. */
+  #deliver(answer, begin) {
+    const size = Math.min(answer.length, Math.ceil(PIECE / this.byteTime))
+    const time = begin + size * this.byteTime
+    const then = () => {
+      if (this.#closed) return
+      this.#handlers.received(answer.subarray(0, size))
+      if (size < answer.length) this.#deliver(answer.subarray(size), time)
+    }
+    if (size === answer.length) at(time, then)
+    else setTimeout(then, time - performance.now())
   }
 
   close() {
@@ -107,7 +121,6 @@ async function useOf(kind, baudRate, items, calls) {
     frame: kind.frame,
     messageFormat: kind.format,
     probe: 'none',
-    timeout: 60_000,
   })
   try {
     await client.connect()
