@@ -263,6 +263,24 @@ describe('a silent station', () => {
     stations.close()
   })
 
+  test('that missed one request only is asked again soon; when that is silent, too, it waits for its share of the line', async () => {
+    const { stations, second } = await two()
+    const missed = async (): Promise<number> => {
+      stations.dead.add(2)
+      const read = second.read()
+      await stations.pass(REQUEST * BYTE_TIME + ANSWER_TIME + 1)
+      expect(read.told).toBe('TIMEOUT unknown')
+      stations.dead.clear()
+      const lostAt = stations.clock.now()
+      for (let i = 0; i < 50 && second.connection.state.name !== 'connected'; i++) await stations.pass(100)
+      expect(second.connection.state.name).toBe('connected')
+      return stations.clock.now() - lostAt
+    }
+    expect(await missed()).toBeLessThan(700)
+    expect(await missed()).toBeGreaterThan(1500)
+    stations.close()
+  })
+
   test('that was never there is tried with each probe once, then with one at a time', async () => {
     const stations = new Stations()
     stations.dead.add(2)

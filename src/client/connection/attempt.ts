@@ -288,7 +288,7 @@ export class Attempt implements LineUser {
       if (isProbe) this.#lost(failure.silent(this.peer, causes, error, this.#askedAlone()))
       return
     }
-    if (silentSince !== undefined) this.#absentFor = this.#line.pauseOfAbsent(silentSince)
+    if (silentSince !== undefined) this.#absentFor = this.#line.pauseOfAbsent(silentSince, !isProbe)
     const by = silentSince === undefined ? 'deadline' : 'answer time'
     this.#silence(job, causes, failure.noAnswer(job.exchange.title, this.peer, causes, by))
   }

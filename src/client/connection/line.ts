@@ -162,14 +162,17 @@ export class Line {
 
   /**
    * A PLC has not answered since `sentAt`: how long it is not asked again, ms. As long as others use the line, all those
-   * that are not there get a share of its time, one after the other.
+   * that are not there get a share of its time, one after the other. Who was there until now (`wasThere`) may have missed
+   * one request only: it is asked again soon, unless that share is spent.
    */
-  pauseOfAbsent(sentAt: number): number {
+  pauseOfAbsent(sentAt: number, wasThere: boolean): number {
     const { answerTime = 0, quiet = 0 } = this.#options.recovery ?? {}
     const now = this.#options.clock.now()
     if (this.#users.size < 2) return answerTime
-    this.#absentUntil = Math.max(this.#absentUntil, now) + (now - sentAt + quiet) / SHARE_OF_ABSENT
-    return this.#absentUntil - now
+    const spent = Math.max(0, this.#absentUntil - now)
+    const pause = spent + (now - sentAt + quiet) / SHARE_OF_ABSENT
+    this.#absentUntil = now + pause
+    return wasThere && spent === 0 ? answerTime : pause
   }
 
   /** Requests of this user that are in flight, and that wait for their turn. */
