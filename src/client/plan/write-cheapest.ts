@@ -20,29 +20,29 @@ interface Priced {
 interface Way {
   readonly price: number
   readonly requests: number
-  /** The last request, and where it begins. */
-  readonly last: Batch | undefined
+  /** The last request, and the units it holds. */
+  readonly last: Omit<Batch, 'units'> | undefined
   readonly from: number
+  readonly to: number
 }
 
 /** @param request bytes of a request and its answer around their bodies */
 export function cheapestBatches(areas: Areas, units: readonly WriteUnit[], request: number): Batch[] {
   const finder = new Finder(areas, request)
-  const best: (Way | undefined)[] = [{ price: 0, requests: 0, last: undefined, from: 0 }]
+  const best: (Way | undefined)[] = [{ price: 0, requests: 0, last: undefined, from: 0, to: 0 }]
   units.forEach((unit, from) => {
     const before = best[from]
     if (before === undefined) return
-    const offer = (to: number, batch: Batch, own: number) => {
-      const way: Way = { price: before.price + own, requests: before.requests + 1, last: batch, from }
+    const offer = (to: number, { batch, price }: Priced) => {
+      const way: Way = { price: before.price + price, requests: before.requests + 1, last: batch, from, to }
       if (isBetter(way, best[to])) best[to] = way
     }
     if (unit.content.kind === 'masked') {
       const [batch] = batchesOf(areas.protocol, units.slice(from))
-      if (batch !== undefined) offer(from + batch.units.length, batch, request)
-    } else
-      finder.each(units, from, (to, { batch, price }) => offer(to, { ...batch, units: units.slice(from, to) }, price))
+      if (batch !== undefined) offer(from + batch.units.length, { batch: { kind: 'masked' }, price: request })
+    } else finder.each(units, from, offer)
   })
-  return batchesTo(best, units.length)
+  return batchesTo(best, units)
 }
 
 function isBetter(way: Way, known: Way | undefined): boolean {
@@ -50,31 +50,24 @@ function isBetter(way: Way, known: Way | undefined): boolean {
   return way.price < known.price || (way.price === known.price && way.requests < known.requests)
 }
 
-function batchesTo(best: readonly (Way | undefined)[], end: number): Batch[] {
+function batchesTo(best: readonly (Way | undefined)[], units: readonly WriteUnit[]): Batch[] {
   const batches: Batch[] = []
-  for (let at = end; at > 0; ) {
+  for (let at = units.length; at > 0; ) {
     const way = best[at]
     if (way?.last === undefined) throw new Error('a unit that no request writes')
-    batches.push(way.last)
+    batches.push({ ...way.last, units: units.slice(way.from, way.to) })
     at = way.from
   }
   return batches.reverse()
 }
 
-/** Cells in a row, wherever they came in the order. */
-interface Run {
-  readonly area: Area
-  readonly from: number
-  readonly to: number
-}
-
 /** Units of one request so far. */
 interface Growing {
   readonly first: WriteUnit
-  runs: readonly Run[]
-  cells: number
+  readonly runs: Runs
   /** Price of a Write without the values, whatever of it is the longest. */
   head: number
+  values: number
   /** Of one area, as few as a Write carries, even if they are no row yet. */
   mayBeRow: boolean
   load: Load | undefined
@@ -82,11 +75,20 @@ interface Growing {
   mayBeBlocks: boolean
 }
 
+/** What a unit costs in any request. */
+interface UnitPrice {
+  readonly head: number
+  readonly values: number
+  readonly entry: EntryPrice
+  readonly load: Load
+}
+
 class Finder {
   readonly #areas: Areas
   readonly #protocol: PlanProtocol
   readonly #prices: WritePrices
   readonly #known = new Map<Area, { readonly random: number; readonly block: ReturnType<WritePrices['block']> }>()
+  readonly #units = new Map<WriteUnit, UnitPrice>()
 
   constructor(areas: Areas, request: number) {
     this.#areas = areas
@@ -96,7 +98,7 @@ class Finder {
 
   /** Every request that begins with a unit. */
   each(units: readonly WriteUnit[], from: number, use: (to: number, priced: Priced) => void): void {
-    const [first] = units.slice(from, from + 1)
+    const first = units[from]
     if (first === undefined) return
     const growing = this.#opened(first)
     for (let to = from; to < units.length; to++) {
@@ -112,9 +114,9 @@ class Finder {
     const { ways } = first.area
     return {
       first,
-      runs: [],
-      cells: 0,
+      runs: new Runs(),
       head: 0,
+      values: 0,
       mayBeRow: ways.direct !== undefined,
       load: ways.random === undefined ? undefined : {},
       entry: noEntry,
@@ -124,29 +126,41 @@ class Finder {
 
   /** Whether any command may still take all of them. */
   #add(growing: Growing, unit: WriteUnit): boolean {
-    const { area, from, to } = unit
-    growing.runs = withRun(growing.runs, { area, from, to })
-    growing.cells += to - from
-    growing.mayBeRow &&= area === growing.first.area && rowFits(this.#protocol, area, growing.cells)
-    if (growing.mayBeRow) {
-      growing.head = Math.max(growing.head, this.#prices.direct(area, from), this.#prices.direct(area, to - 1))
-    }
-    const load = growing.load && added(growing.load, loadOf(unit))
-    growing.load = load && randomFits(this.#protocol, unit, load) ? load : undefined
-    if (growing.load !== undefined) growing.entry = longest(growing.entry, this.#entries(unit))
-    growing.mayBeBlocks &&= this.#fitsBlock(area, growing.runs)
+    const { area } = unit
+    const { head, values, entry, load } = this.#priceOf(unit)
+    const { runs } = growing
+    runs.add(unit)
+    growing.head = Math.max(growing.head, head)
+    growing.values += values
+    growing.entry = longest(growing.entry, entry)
+    growing.mayBeRow &&= area === growing.first.area && rowFits(this.#protocol, area, runs.cells)
+    const sum = growing.load && added(growing.load, load)
+    growing.load = sum && randomFits(this.#protocol, unit, sum) ? sum : undefined
+    growing.mayBeBlocks &&=
+      area.ways.block !== undefined && fits(boundsOf(this.#protocol, 'writeBlock', area.ways.form), runs.blocks)
     return growing.mayBeRow || growing.load !== undefined || growing.mayBeBlocks
   }
 
-  #fitsBlock(area: Area, runs: readonly Run[]): boolean {
-    return area.ways.block !== undefined && fits(boundsOf(this.#protocol, 'writeBlock', area.ways.form), blocksOf(runs))
+  #priceOf(unit: WriteUnit): UnitPrice {
+    let price = this.#units.get(unit)
+    if (price === undefined) {
+      const { area, from, to } = unit
+      const { direct, random } = area.ways
+      // The first and the last address: the longer of them counts.
+      const ends = to - from === 1 ? [from] : [from, to - 1]
+      price = {
+        head: direct === undefined ? 0 : Math.max(...ends.map((cell) => this.#prices.direct(area, cell))),
+        values: this.#prices.values(area, to - from),
+        entry: random === undefined ? noEntry : ends.map((cell) => this.#entry(area, cell)).reduce(longest),
+        load: loadOf(unit),
+      }
+      this.#units.set(unit, price)
+    }
+    return price
   }
 
-  /** Its first and its last address: the longer of them counts. */
-  #entries({ area, from, to }: WriteUnit): EntryPrice {
-    const request = this.#requests(area).random
-    const first = this.#prices.entry(area, from, request)
-    return to - from === 1 ? first : longest(first, this.#prices.entry(area, to - 1, request))
+  #entry(area: Area, cell: number): EntryPrice {
+    return this.#prices.entry(area, cell, this.#requests(area).random)
   }
 
   /** Of requests with nothing in them. */
@@ -168,18 +182,18 @@ class Finder {
     return ways.reduce<Priced | undefined>((a, b) => (a === undefined || b.price < a.price ? b : a), undefined)
   }
 
-  #direct({ first, runs, head, cells, mayBeRow, load }: Growing): Priced | undefined {
-    const [run, ...others] = runs
+  #direct({ first, runs, head, mayBeRow, load }: Growing): Priced | undefined {
+    const { only } = runs
     // A device of two words is one double word to Write Random: the way every family has.
     const isRecord = first.area.kind === 'record' && load !== undefined
-    if (run === undefined || others.length > 0 || !mayBeRow || isRecord) return undefined
-    const price = head + this.#prices.values(first.area, cells)
-    const inWords = this.#inWords(run)
+    if (only === undefined || !mayBeRow || isRecord) return undefined
+    const price = head + this.#prices.values(first.area, runs.cells)
+    const inWords = this.#inWords(first.area, only)
     return inWords !== undefined && inWords.price < price ? inWords : { batch: { kind: 'direct' }, price }
   }
 
   /** Sixteen bits from a multiple of sixteen on are a word, and nothing but these bits is in it. */
-  #inWords({ area, from, to }: Run): Priced | undefined {
+  #inWords(area: Area, { from, to }: Row): Priced | undefined {
     const { kind, info } = area
     const isWhole = from % 16 === 0 && to % 16 === 0
     if (kind !== 'bit' || !isWhole || info.group !== undefined || isExtended(area.template)) return undefined
@@ -206,11 +220,10 @@ class Finder {
     return { batch: { kind: 'random' }, price: this.#requests(first.area).random + entries }
   }
 
-  #block({ first, runs, mayBeBlocks }: Growing): Priced | undefined {
+  #block({ first, runs, values, mayBeBlocks }: Growing): Priced | undefined {
     if (!mayBeBlocks) return undefined
     const { request, block } = this.#requests(first.area).block
-    const price = runs.reduce((sum, run) => sum + block + this.#prices.values(run.area, run.to - run.from), request)
-    return { batch: { kind: 'block' }, price }
+    return { batch: { kind: 'block' }, price: request + runs.count * block + values }
   }
 }
 
@@ -222,22 +235,50 @@ function longest(a: EntryPrice, b: EntryPrice): EntryPrice {
   }
 }
 
-/** Runs of neighbours become one. */
-function withRun(runs: readonly Run[], run: Run): readonly Run[] {
-  const isBeside = (other: Run) => other.area === run.area && (other.to === run.from || run.to === other.from)
-  const beside = runs.filter(isBeside)
-  if (beside.length === 0) return [...runs, run]
-  const from = Math.min(run.from, ...beside.map((other) => other.from))
-  const to = Math.max(run.to, ...beside.map((other) => other.to))
-  return [...runs.filter((other) => !isBeside(other)), { area: run.area, from, to }]
+/** Cells `from` to `to - 1`. */
+interface Row {
+  readonly from: number
+  readonly to: number
 }
 
-function blocksOf(runs: readonly Run[]): Load {
-  const load: Record<string, number> = {}
-  for (const { area, from, to } of runs) {
-    const list = area.ways.block ?? 'wordBlocks'
-    load[list] = (load[list] ?? 0) + 1
-    load[`${list}.values`] = (load[`${list}.values`] ?? 0) + to - from
+/** Rows of cells, wherever they came in the order: those that touch become one. */
+class Runs {
+  count = 0
+  cells = 0
+  /** Blocks and their values, as limits count them. */
+  readonly blocks: Record<string, number> = {}
+  /** The other end of each row. */
+  readonly #ends = new Map<Area, { readonly byFrom: Map<number, number>; readonly byTo: Map<number, number> }>()
+  #last: Row = { from: 0, to: 0 }
+
+  /** The only row there is. */
+  get only(): Row | undefined {
+    return this.count === 1 ? this.#last : undefined
   }
-  return load
+
+  add({ area, from, to }: Row & { readonly area: Area }): void {
+    const { byFrom, byTo } = this.#endsOf(area)
+    const [start, end] = [byTo.get(from) ?? from, byFrom.get(to) ?? to]
+    const more = 1 - (start < from ? 1 : 0) - (end > to ? 1 : 0)
+    byFrom.set(start, end)
+    byTo.set(end, start)
+    if (start < from) byTo.delete(from)
+    if (end > to) byFrom.delete(to)
+    this.#last = { from: start, to: end }
+    this.count += more
+    this.cells += to - from
+    const list = area.ways.block
+    if (list === undefined) return
+    this.blocks[list] = (this.blocks[list] ?? 0) + more
+    this.blocks[`${list}.values`] = (this.blocks[`${list}.values`] ?? 0) + to - from
+  }
+
+  #endsOf(area: Area) {
+    let ends = this.#ends.get(area)
+    if (ends === undefined) {
+      ends = { byFrom: new Map(), byTo: new Map() }
+      this.#ends.set(area, ends)
+    }
+    return ends
+  }
 }
