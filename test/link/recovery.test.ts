@@ -271,6 +271,17 @@ describe('an answer that may still come', () => {
     expect(eventsOf(session).map(({ kind }) => kind)).toEqual(['stray'])
   })
 
+  test('is waited for behind a damaged one, too, where nothing ends what was asked', () => {
+    const session = new Session<TestJob>(format5, { kind: 'stream', window: 1, recovery: RECOVERY })
+    session.submit({ name: 'A', deadline: 1000, ...questionOf(format5, head(1), Buffer.from('A')) }, 0)
+    const request = session.transmit()?.length ?? 0
+    const damaged = Buffer.from(format5.response.write(head(1), 0, 0, Buffer.from('a')))
+    damaged.writeUInt8(damaged.readUInt8(14) ^ 1, 14)
+    session.receive(damaged, 4)
+    session.submit({ name: 'B', deadline: 1000, ...questionOf(format5, head(1), Buffer.from('B')) }, 5)
+    expect(session.nextTimeout(5)).toBe(request + 200 + QUIET)
+  })
+
   test('is on its way when a part of it has come: then the line has to be quiet only', () => {
     const { session } = abandoned(framing.response.write(head(1), 0, 0, Buffer.from('a')).subarray(0, 8))
     expect(session.nextTimeout(5)).toBe(5 + QUIET)

@@ -142,8 +142,9 @@ export class Line {
 
   /** ms that a request with its answer may take on the line; 0 where nobody says how long its characters take. */
   timeOf(exchange: Exchange<unknown>, wait = 0): number {
-    const { byteTime = 0, answerTime = 0, gap = 0 } = this.#options.recovery ?? {}
-    if (byteTime === 0 || !this.canRecover) return 0
+    const { recovery } = this.#options
+    if (recovery?.byteTime === undefined || !this.canRecover) return 0
+    const { answerTime = 0, gap = 0 } = recovery
     return this.characterTimeOf(exchange) + wait + answerTime + gap
   }
 
