@@ -86,6 +86,14 @@ describe('reading costs the fewest characters that any distribution over request
   })
 })
 
+test('a request ends before it is full where the widest gap is then between two requests', () => {
+  const plan = planRead(parsed(['D0[15]', 'D16[15]', 'D38[15]', 'D54[45]']), over1c(), { gap: GAP })
+  expect(plan.describe().requests.map(({ text }) => text)).toEqual([
+    'Batch read (word units): D0 to D30, 31 points',
+    'Batch read (word units): D38 to D98, 61 points',
+  ])
+})
+
 describe('a wait of each request counts as the characters that the line could carry meanwhile', () => {
   test('in a plan', async () => {
     const turnRound = 31

@@ -247,7 +247,7 @@ class Runs {
   cells = 0
   /** Blocks and their values, as limits count them. */
   readonly blocks: Record<string, number> = {}
-  /** The other end of each row. */
+  /** The other end of each row. Ends that are inside by now stay: nothing comes there again, because nothing is written twice. */
   readonly #ends = new Map<Area, { readonly byFrom: Map<number, number>; readonly byTo: Map<number, number> }>()
   #last: Row = { from: 0, to: 0 }
 
@@ -262,8 +262,6 @@ class Runs {
     const more = 1 - (start < from ? 1 : 0) - (end > to ? 1 : 0)
     byFrom.set(start, end)
     byTo.set(end, start)
-    if (start < from) byTo.delete(from)
-    if (end > to) byFrom.delete(to)
     this.#last = { from: start, to: end }
     this.count += more
     this.cells += to - from
