@@ -56,6 +56,7 @@ export const takesLateAnswers: SerialDouble = {
 /** Takes answers with any sum. */
 export const ignoresTheSum: SerialDouble = {
   name: 'ignores the sum check code',
+  requests: 250,
   transport: (open) => () => changed(open(), { received: withRightSum }),
 }
 

@@ -31,8 +31,9 @@ export interface SerialDouble {
   readonly name: string
   readonly client?: (client: MelsecClient) => Pick<MelsecClient, 'read' | 'readValues' | 'write'>
   readonly transport?: (open: OpenTransport) => OpenTransport
+  /** Calls after which it is found out. */
+  readonly requests: number
   /** All its calls read one word: answers are alike. */
-  readonly requests?: number
   readonly isSimple?: true
   /** Of the requests with which something goes wrong. Silent stations are not asked, and who is not asked takes nothing for an answer. */
   readonly share?: number

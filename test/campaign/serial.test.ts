@@ -61,7 +61,7 @@ describe('finds a client that', () => {
       const found = await serialCampaign({
         seed: 3,
         kinds: all.filter(({ name }) => name === '3C format 4 115200 noise'),
-        requests: () => double.requests ?? 250,
+        requests: () => double.requests,
         faults: (name) => name === fault,
         double,
       })
