@@ -22,7 +22,7 @@ export interface SerialPortOptions extends Omit<SerialOptions, 'path'> {
   readonly path?: string
   /**
    * From the last character of a request until the first one of its answer, after which the PLC counts as silent: the longest
-   * scan of its program, at least. Default 1000.
+   * scan of its program, at least. Default 500.
    */
   readonly answerTime?: number
   /** Between two characters of an answer, after which the rest does not come; default 100, or more at low speeds. */
@@ -90,7 +90,7 @@ const PATIENCE = 10
 /** ms: adapters and device servers hand on what they have after a while only. */
 const LEAST_TIME = 100
 /** ms: a long scan, and the delays of adapters. */
-const ANSWER_TIME = 1000
+const ANSWER_TIME = 500
 /** Of a port behind a device server: errors of its settings name no path. */
 const ELSEWHERE = 'a device server'
 
