@@ -1,7 +1,7 @@
 // The use of a serial line: characters against what the bit rate allows, with a PLC that takes no time to answer and paces its
 // bytes; and how few characters the plans of the client need.
 import { createRequire } from 'node:module'
-import { isQuick, row, times, title } from './measure.mjs'
+import { isQuick, median, row, times, title } from './measure.mjs'
 
 const require = createRequire(import.meta.url)
 const { createMelsecClient } = require('../dist/src/index.js')
@@ -111,7 +111,7 @@ class PacedLine {
   }
 }
 
-/** Share of the bit rate that calls one after another use. */
+/** Share of the bit rate that calls one after another use: the median. */
 async function useOf(kind, baudRate, items, calls) {
   const line = new PacedLine(plcOf(kind), baudRate)
   const client = createMelsecClient({
@@ -126,10 +126,13 @@ async function useOf(kind, baudRate, items, calls) {
     await client.connect()
     await client.read(SHORT)
     const before = line.characters
-    const start = performance.now()
-    for (let i = 0; i < calls; i++) await client.read(items)
-    const needed = (line.characters - before) * line.byteTime
-    return { characters: (line.characters - before) / calls, share: needed / (performance.now() - start) }
+    const shares = []
+    for (let i = 0; i < calls; i++) {
+      const [sofar, start] = [line.characters, performance.now()]
+      await client.read(items)
+      shares.push(((line.characters - sofar) * line.byteTime) / (performance.now() - start))
+    }
+    return { characters: (line.characters - before) / calls, share: median(shares) }
   } finally {
     await client.close()
   }
