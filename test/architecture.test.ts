@@ -28,6 +28,7 @@ const ROOMS: Readonly<Record<string, readonly string[]>> = {
   melsec: ['errors', 'basics', 'codec', 'link'],
   jw: ['errors', 'basics', 'codec', 'link'],
   value: ['errors', 'basics'],
+  tags: ['errors', 'basics', 'value'],
   transport: ['errors', 'basics'],
   'client/connection': ['errors', 'basics', 'codec', 'link', 'transport'],
   'client/item': ['errors', 'basics', 'codec', 'melsec', 'value', 'client/connection'],
@@ -239,6 +240,13 @@ const FOR_TESTS: readonly string[] = [
   'valuesOfBytes',
   'bytesOfValues',
   'parseJwItem',
+  'thresholdOf',
+  'hasChanged',
+  'rawValueOf',
+  'textOfProblem',
+  'tagsOfMachine',
+  'defineTags',
+  'tagTable',
 ]
 
 /** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */
