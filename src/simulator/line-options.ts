@@ -19,7 +19,8 @@ import type { Profile, ProfileId, ProfileInfo } from '../melsec/profiles/profile
 import { resolveProfile } from '../melsec/profiles/profiles'
 import { type Clock, realClock } from '../transport/clock'
 import { lineTime, type SerialOptions, type SerialSettings, serialSettings } from '../transport/serial'
-import { type PlcSimulatorOptions, type PortOptions, type SimulatorSettings, settingsOf } from './options'
+import type { PortOptions } from './listening'
+import { type PlcSimulatorOptions, type SimulatorSettings, settingsOf } from './options'
 
 /** What a station of a simulated line is like. All of it can be left out. */
 export interface LineStationOptions

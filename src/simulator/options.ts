@@ -20,14 +20,9 @@ import { fileClock } from './file-clock'
 import type { FilesParts } from './files'
 import type { HandlerCall } from './handler'
 import { LabelTable, type SimulatedLabels } from './labels'
+import type { PortOptions } from './listening'
 import type { ExtensionMemory } from './memory'
 import type { SimulatedDrives } from './simulated-drive'
-
-/** A port that listens. */
-export interface PortOptions {
-  /** 0 (default): any free port. */
-  readonly port?: number
-}
 
 /** What a simulated PLC is like. All of it can be left out. */
 export interface PlcSimulatorOptions {

@@ -1,15 +1,11 @@
 // A simulated PLC that listens: on TCP, on UDP and in memory.
 import { badOption } from '../basics/option-checks'
-import { ClosedError } from '../errors'
 import type { CommandName } from '../melsec/commands/commands'
 import { bodies } from '../melsec/frame/body'
 import type { Profile, ProfileInfo } from '../melsec/profiles/profile'
 import { SlmpCommandSet } from '../melsec/protocol'
 import type { Clock } from '../transport/clock'
-import { listenTcp } from '../transport/listen-tcp'
-import { listenUdp } from '../transport/listen-udp'
-import { listenMemory, type MemoryListener } from '../transport/memory'
-import type { Listener, OpenTransport, ServerConnection } from '../transport/transport'
+import type { OpenTransport } from '../transport/transport'
 import type { PlcValue, ValueFormat } from '../value/value'
 import { ACompatiblePort } from './a-compatible-port'
 import { type RequestEvent, type Shared, SimulatedConnection } from './connection'
@@ -18,6 +14,7 @@ import type { ErrorLog } from './error-log'
 import { Emitter } from './events'
 import { type FaultSubject, Faults } from './faults'
 import { fileClock } from './file-clock'
+import { type ConnectionEvent, type ConnectionInfo, type ConnectOptions, type Endpoint, Listening } from './listening'
 import { chosen, type OnDemandData, type OnDemandOptions, onDemandBytes } from './on-demand'
 import { type PlcSimulatorOptions, type SimulatorSettings, settingsOf } from './options'
 import { Plc } from './plc'
@@ -36,28 +33,6 @@ import { newCounters, type SimulatorStatistics } from './statistics'
 export type { OnDemandData, OnDemandOptions } from './on-demand'
 export type { PlcSimulatorOptions } from './options'
 
-/** Where a port listens. */
-export interface Endpoint {
-  /** Address it listens on. */
-  readonly host: string
-  /** Number of the port. */
-  readonly port: number
-}
-
-/** A client at the moment. */
-export interface ConnectionInfo {
-  /** Counting from 1. */
-  readonly id: number
-  /** TCP (`stream`) or UDP (`datagram`). */
-  readonly kind: 'stream' | 'datagram'
-  /** Address and port, or the name given to `connect()`. */
-  readonly remote: string
-  /** Milliseconds since 1970. */
-  readonly since: number
-  /** Requests so far. */
-  readonly requests: number
-}
-
 /** A write that was carried out. */
 export type WriteEvent = RequestEvent & {
   /** Name of the command. */
@@ -75,23 +50,11 @@ export interface SimulatorEvents {
   /** Every request, with its end code. */
   request: RequestEvent
   /** A client has come or gone. */
-  connection: { readonly change: 'opened' | 'closed' | 'turnedAway'; readonly connection: ConnectionInfo }
+  connection: ConnectionEvent
   /** Power is on again after a reset or `restart()`: devices that are not latched are 0. */
   restart: { readonly time: number }
   /** `close()` was called. */
   close: { readonly time: number }
-}
-
-/** How a client is joined to the simulated PLC in memory. */
-export interface ConnectOptions {
-  /** As TCP (`stream`, default) or as UDP. */
-  readonly kind?: 'stream' | 'datagram'
-  /** How bytes of a stream are cut and joined on their way, both directions; as they are sent, by default. */
-  readonly chunking?: (pending: readonly Buffer[], to: 'client' | 'server') => readonly Buffer[]
-  /** As sockets (default), or before `send` returns. */
-  readonly delivery?: 'microtask' | 'synchronous'
-  /** Who this is in remote control. Default: every call of `connect()` is another device. */
-  readonly device?: string
 }
 
 /** A simulated PLC. Made by `createPlcSimulator()`. */
@@ -180,17 +143,7 @@ class Simulator implements PlcSimulator {
   readonly #plc: Plc
   readonly #events = new Emitter<SimulatorEvents>()
   readonly #counters = newCounters()
-  readonly #connections = new Map<ServerConnection, SimulatedConnection>()
-  readonly #memoryListeners = new Set<MemoryListener>()
-  readonly #timers = new Set<() => void>()
-  /** Entries that are not yet free again after their connections have ended. */
-  #releasing = 0
-  #connects = 0
-  #down = false
-  #closed = false
-  #tcp: Listener | undefined
-  #udp: Listener | undefined
-  #listening: Promise<void> | undefined
+  readonly #listening: Listening<SimulatedConnection>
   #closing: Promise<void> | undefined
 
   constructor(settings: SimulatorSettings) {
@@ -212,18 +165,29 @@ class Simulator implements PlcSimulator {
     this.cpu = this.#plc.cpu
     this.errors = this.#plc.errors
     this.#shared = this.#share()
+    this.#listening = new Listening<SimulatedConnection>({
+      ...settings,
+      counters: this.#counters,
+      serve: (peer, kind, id, device) =>
+        new SimulatedConnection(this.#shared, peer, kind, device ?? this.#ownerOf(peer.remote), id),
+      refused: ({ id, remote }) => {
+        const subject: FaultSubject = { command: undefined, subcommand: 0, connection: id, remote }
+        return this.faults.take('closeOnAccept', subject)?.how
+      },
+      changed: (event) => this.#events.emit('connection', event),
+    })
   }
 
   get tcp(): Endpoint | undefined {
-    return endpoint(this.#tcp)
+    return this.#listening.tcp
   }
 
   get udp(): Endpoint | undefined {
-    return endpoint(this.#udp)
+    return this.#listening.udp
   }
 
   get connections(): readonly ConnectionInfo[] {
-    return [...this.#connections.values()].map(info)
+    return this.#listening.infos
   }
 
   get statistics(): SimulatorStatistics {
@@ -231,29 +195,21 @@ class Simulator implements PlcSimulator {
   }
 
   listen(): Promise<void> {
-    this.#listening ??= this.#listen()
-    return this.#listening
+    return this.#listening.listen()
   }
 
   connect(options: ConnectOptions = {}): OpenTransport {
-    const { kind = 'stream', device = `device ${++this.#connects}`, ...rest } = options
-    this.#refuseClosed()
-    const listener = listenMemory({ kind, ...rest }, (peer) => this.#accept(peer, kind, device))
-    this.#memoryListeners.add(listener)
-    return listener.open
+    return this.#listening.connect(options)
   }
 
   restart(ms: number = this.#settings.restartTime): void {
-    if (this.#down || this.#closed) return
-    this.#down = true
-    for (const connection of this.#connections.values()) connection.end('reset')
-    this.#shared.heldDatagrams.length = 0
-    this.#plc.down()
-    this.#after(ms, () => {
-      this.#down = false
+    const isDown = this.#listening.goDown(ms, () => {
       this.#plc.up()
       this.#events.emit('restart', { time: this.clock.time() })
     })
+    if (!isDown) return
+    this.#shared.heldDatagrams.length = 0
+    this.#plc.down()
   }
 
   read(item: string, format?: ValueFormat): PlcValue {
@@ -273,10 +229,10 @@ class Simulator implements PlcSimulator {
   }
 
   sendOnDemand(data: OnDemandData, options: OnDemandOptions = {}): number {
-    this.#refuseClosed()
+    this.#listening.refuseClosed()
     const bytes = onDemandBytes(data, this.#settings.code)
     let told = 0
-    for (const connection of chosen(this.#connections.values(), options)) if (connection.sendOnDemand(bytes)) told++
+    for (const connection of chosen(this.#listening.connections, options)) if (connection.sendOnDemand(bytes)) told++
     return told
   }
 
@@ -286,8 +242,7 @@ class Simulator implements PlcSimulator {
 
   close(): Promise<void> {
     if (this.#closing === undefined) {
-      this.#closed = true
-      this.#closing = this.#close()
+      this.#closing = this.#listening.close()
       this.#events.emit('close', { time: this.clock.time() })
     }
     return this.#closing
@@ -321,109 +276,8 @@ class Simulator implements PlcSimulator {
     this.#events.emit('request', event)
   }
 
-  async #listen(): Promise<void> {
-    this.#refuseClosed()
-    const { host, tcp, udp, clock } = this.#settings
-    try {
-      if (tcp !== false) this.#tcp = await listenTcp({ host, ...tcp }, (peer) => this.#acceptSocket(peer, 'stream'))
-      if (udp !== false)
-        this.#udp = await listenUdp({ host, clock, ...udp }, (peer) => this.#acceptSocket(peer, 'datagram'))
-    } catch (error) {
-      await this.#closeListeners()
-      this.#listening = undefined
-      throw error
-    }
-    if (this.#closed) await this.#closeListeners()
+  /** Who asks, as remote control tells external devices apart. */
+  #ownerOf(remote: string): string {
+    return this.#settings.remoteOwner === 'host' ? remote.slice(0, remote.lastIndexOf(':')) : remote
   }
-
-  #acceptSocket(peer: ServerConnection, kind: 'stream' | 'datagram'): void {
-    const { remote } = peer
-    this.#accept(peer, kind, this.#settings.remoteOwner === 'host' ? remote.slice(0, remote.lastIndexOf(':')) : remote)
-  }
-
-  #accept(peer: ServerConnection, kind: 'stream' | 'datagram', owner: string): void {
-    if (this.#down || this.#closed) {
-      // A PLC that starts again has no connections to end in an orderly way; datagrams just get lost.
-      peer.reset()
-      return
-    }
-    const connection = new SimulatedConnection(this.#shared, peer, kind, owner, ++this.#counters.connections)
-    const turnAway = kind === 'stream' ? this.#turnAway(connection) : undefined
-    if (turnAway !== undefined) {
-      this.#counters.turnedAway++
-      connection.end(turnAway)
-      this.#events.emit('connection', { change: 'turnedAway', connection: info(connection) })
-      return
-    }
-    this.#connections.set(peer, connection)
-    peer.onClosed = () => this.#gone(peer, connection)
-    this.#events.emit('connection', { change: 'opened', connection: info(connection) })
-  }
-
-  /** How a connection ends before it begins, if it does. */
-  #turnAway(connection: SimulatedConnection): 'close' | 'reset' | undefined {
-    const subject: FaultSubject = {
-      command: undefined,
-      subcommand: 0,
-      connection: connection.id,
-      remote: connection.remote,
-    }
-    const fault = this.faults.take('closeOnAccept', subject)
-    if (fault !== undefined) return fault.how
-    let taken = this.#releasing
-    for (const { kind } of this.#connections.values()) if (kind === 'stream') taken++
-    return taken >= this.#settings.maxConnections ? 'close' : undefined
-  }
-
-  #gone(peer: ServerConnection, connection: SimulatedConnection): void {
-    connection.end()
-    this.#connections.delete(peer)
-    if (connection.kind === 'stream' && this.#settings.entryRelease > 0 && !this.#down) {
-      this.#releasing++
-      this.#after(this.#settings.entryRelease, () => {
-        this.#releasing--
-      })
-    }
-    this.#events.emit('connection', { change: 'closed', connection: info(connection) })
-  }
-
-  #after(ms: number, run: () => void): void {
-    const cancel = this.clock.timer(
-      ms,
-      () => {
-        this.#timers.delete(cancel)
-        run()
-      },
-      { unref: true },
-    )
-    this.#timers.add(cancel)
-  }
-
-  async #close(): Promise<void> {
-    for (const cancel of this.#timers) cancel()
-    this.#timers.clear()
-    for (const connection of this.#connections.values()) connection.end('close')
-    for (const listener of this.#memoryListeners) listener.close()
-    await this.#listening?.catch(() => {})
-    await this.#closeListeners()
-  }
-
-  async #closeListeners(): Promise<void> {
-    const listeners = [this.#tcp, this.#udp]
-    this.#tcp = undefined
-    this.#udp = undefined
-    await Promise.all(listeners.map((listener) => listener?.close()))
-  }
-
-  #refuseClosed(): void {
-    if (this.#closed) throw new ClosedError('CLOSED', 'This simulator is closed: make another one.')
-  }
-}
-
-function info({ id, kind, remote, since, requests }: SimulatedConnection): ConnectionInfo {
-  return { id, kind, remote, since, requests }
-}
-
-function endpoint(listener: Listener | undefined): Endpoint | undefined {
-  return listener === undefined ? undefined : { host: listener.address, port: listener.port }
 }

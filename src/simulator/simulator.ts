@@ -26,8 +26,9 @@ export {
   type SimulatedStation,
   type StationEvents,
 } from './line'
+export type { ConnectionEvent, ConnectionInfo, ConnectOptions, Endpoint, PortOptions } from './listening'
 export type { ExtensionMemory } from './memory'
-export type { PlcSimulatorOptions, PortOptions } from './options'
+export type { PlcSimulatorOptions } from './options'
 export {
   type DemoPlant,
   type DemoPlantOptions,
@@ -48,10 +49,7 @@ export type {
   SimulatedErrors,
 } from './program'
 export {
-  type ConnectionInfo,
-  type ConnectOptions,
   createPlcSimulator,
-  type Endpoint,
   type OnDemandData,
   type OnDemandOptions,
   type PlcSimulator,

@@ -14,12 +14,8 @@ import { anyFiles } from '../../src/melsec/profiles/files'
 import type { Profile } from '../../src/melsec/profiles/profile'
 import { profiles, resolveProfile } from '../../src/melsec/profiles/profiles'
 import { type ExchangeOptions, MelsecProtocol } from '../../src/melsec/protocol'
-import {
-  type ConnectOptions,
-  createPlcSimulator,
-  type PlcSimulator,
-  type PlcSimulatorOptions,
-} from '../../src/simulator/server'
+import type { ConnectOptions } from '../../src/simulator/listening'
+import { createPlcSimulator, type PlcSimulator, type PlcSimulatorOptions } from '../../src/simulator/server'
 import { type ManualClock, manualClock } from '../support/manual-clock'
 import { questionOf } from '../support/question'
 
