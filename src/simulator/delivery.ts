@@ -1,28 +1,29 @@
 // Answers of a simulated PLC on their way to the wire, through the fault switches.
+import type { CommandName } from '../melsec/commands/commands'
 import { type Damage, damaged, noiseOf } from './damage'
 import type { FaultSubject, Faults } from './faults'
 import type { Step } from './sequence'
 
 /** Where the switches are looked up. */
-export type FaultSource = Pick<Faults, 'none' | 'take' | 'peek'>
+export type FaultSource<Name extends string = CommandName> = Pick<Faults<Name>, 'none' | 'take' | 'peek'>
 
 /** Answers that the fault `late` holds back. Over UDP one box for the port: the next request may come from another. */
 export type HeldAnswers = { readonly until: 'request' | 'answer'; readonly send: () => void }[]
 
 /** A request whose answer is delivered. */
-export interface Delivered extends FaultSubject {
+export interface Delivered<Name extends string = CommandName> extends FaultSubject<Name> {
   /** Its answer is on the wire: too late to take it back. */
   sending: boolean
 }
 
-export interface DeliveryParts {
-  readonly faults: FaultSource
+export interface DeliveryParts<Name extends string> {
+  readonly faults: FaultSource<Name>
   readonly held: HeldAnswers
   /** Bytes in front of or behind an answer come in one piece with it. */
   readonly joined: boolean
   readonly send: (bytes: Buffer) => void
   /** Ends the connection of the request. */
-  readonly end: (how: 'close' | 'reset', work: Delivered) => void
+  readonly end: (how: 'close' | 'reset', work: Delivered<Name>) => void
   /** An answer begins to go out in pieces, or has gone. */
   readonly inPieces?: (going: boolean) => void
   /** Bytes of noise, some time from now. */
@@ -33,11 +34,11 @@ export const NOTHING: readonly Step[] = []
 /** ms for bytes to arrive before a reset, which would lose them. */
 const ARRIVAL = 5
 
-export class Delivery {
-  readonly #parts: DeliveryParts
+export class Delivery<Name extends string = CommandName> {
+  readonly #parts: DeliveryParts<Name>
   #merging: Buffer[] = []
 
-  constructor(parts: DeliveryParts) {
+  constructor(parts: DeliveryParts<Name>) {
     this.#parts = parts
   }
 
@@ -48,7 +49,7 @@ export class Delivery {
     return late.filter(({ until }) => until === 'answer').map(({ send }) => acting(send))
   }
 
-  deliver(whole: Buffer, work: Delivered): readonly Step[] {
+  deliver(whole: Buffer, work: Delivered<Name>): readonly Step[] {
     const { faults, held, send: out } = this.#parts
     if (faults.none && this.#merging.length === 0) {
       out(whole)
@@ -72,22 +73,22 @@ export class Delivery {
     return merged.length === 0 ? NOTHING : [{ wait: delay?.ms ?? 0 }, sending]
   }
 
-  #makeNoise(work: Delivered): void {
+  #makeNoise(work: Delivered<Name>): void {
     const noise = this.#parts.faults.take('noise', work)
     if (noise !== undefined) this.#parts.noise(noiseOf(noise), noise.ms)
   }
 
-  #damaged(answer: Buffer, work: Delivered): Buffer {
+  #damaged(answer: Buffer, work: Delivered<Name>): Buffer {
     const damage: Damage | undefined = this.#parts.faults.take('damaged', work)
     return damage === undefined ? answer : damaged(answer, damage)
   }
 
-  #copies(answer: Buffer, work: Delivered): Buffer[] {
+  #copies(answer: Buffer, work: Delivered<Name>): Buffer[] {
     const duplicate = this.#parts.faults.take('duplicate', work)
     return new Array<Buffer>(1 + (duplicate?.copies ?? 0)).fill(answer)
   }
 
-  #withGarbage(pieces: Buffer[], work: Delivered): Buffer[] {
+  #withGarbage(pieces: Buffer[], work: Delivered<Name>): Buffer[] {
     const garbage = this.#parts.faults.take('garbage', work)
     if (garbage === undefined) return pieces
     // Never the subheader of an answer in either code, nor the start code of a serial frame.
@@ -98,7 +99,7 @@ export class Delivery {
   }
 
   /** Holds a single answer until there is another one to merge it with. */
-  #merge(pieces: readonly Buffer[], work: Delivered): readonly Buffer[] {
+  #merge(pieces: readonly Buffer[], work: Delivered<Name>): readonly Buffer[] {
     const merge = this.#parts.faults.take('merge', work) !== undefined
     if (!merge && this.#merging.length === 0) return pieces
     const all = [...this.#merging, ...pieces]
@@ -106,13 +107,13 @@ export class Delivery {
     return this.#merging.length > 0 ? [] : [Buffer.concat(all)]
   }
 
-  #sending(pieces: readonly Buffer[], work: Delivered): readonly Step[] {
+  #sending(pieces: readonly Buffer[], work: Delivered<Name>): readonly Step[] {
     work.sending = true
     this.#parts.inPieces?.(true)
     return [...this.#piecesOf(pieces, work), acting(() => this.#parts.inPieces?.(false))]
   }
 
-  #piecesOf(pieces: readonly Buffer[], work: Delivered): readonly Step[] {
+  #piecesOf(pieces: readonly Buffer[], work: Delivered<Name>): readonly Step[] {
     const { faults } = this.#parts
     const [first = Buffer.alloc(0), ...rest] = pieces
     const end = faults.take('disconnect', work)
@@ -142,7 +143,7 @@ export class Delivery {
     return acting(() => this.#send(bytes))
   }
 
-  #ending(how: 'close' | 'reset', work: Delivered): Step {
+  #ending(how: 'close' | 'reset', work: Delivered<Name>): Step {
     return acting(() => this.#parts.end(how, work))
   }
 

@@ -99,6 +99,11 @@ const rows = {
     title: 'Not carried out, refused',
     parameters: { endCode: { title: 'end code', min: 1, max: 0xffff } },
   },
+  otherHeader: {
+    title:
+      'The answer has another header than the request: none where it has one, 40 bytes 00 where it has none (Sharp JW)',
+    parameters: {},
+  },
   shortError: {
     title: 'Refusals carry less than the whole error information',
     parameters: { bytes: { title: 'bytes of it that are left', min: 0, default: 0 } },
@@ -137,6 +142,25 @@ export type FaultKind = keyof Kinds
  */
 export const faultKinds: Readonly<Record<FaultKind, FaultDescription>> = rows
 
+/** Kinds that are about something MELSEC frames do not have. */
+const onlyJw = ['otherHeader'] as const satisfies readonly FaultKind[]
+/** Kinds that are about something messages of a Sharp JW do not have: serial numbers, stations, error information, sums. */
+const onlyMelsec = [
+  'wrongSerial',
+  'wrongRoute',
+  'shortError',
+  'misheard',
+  'wrongSum',
+] as const satisfies readonly FaultKind[]
+
+/** Ways in which a simulated MELSEC PLC can misbehave. */
+export type MelsecFaultKind = Exclude<FaultKind, (typeof onlyJw)[number]>
+/** Ways in which a simulated Sharp JW can misbehave. */
+export type JwFaultKind = Exclude<FaultKind, (typeof onlyMelsec)[number]>
+
+/** Kinds that a family of PLCs does not have. */
+export const absentFaults: Readonly<Record<'melsec' | 'jw', readonly FaultKind[]>> = { melsec: onlyJw, jw: onlyMelsec }
+
 type ValueOfParameter<P> = P extends { readonly oneOf: readonly (infer T)[] } ? T : number
 type Parameters<K extends FaultKind> = Kinds[K]['parameters']
 type OptionalName<P> = { [N in keyof P]: P[N] extends { readonly default: unknown } ? N : never }[keyof P]
@@ -144,8 +168,11 @@ type Given<P> = { readonly [N in Exclude<keyof P, OptionalName<P>>]: ValueOfPara
   readonly [N in OptionalName<P>]?: ValueOfParameter<P[N]>
 }
 
-/** A fault of one kind with its parameters, as it is switched on. */
-export type FaultAction = { [K in FaultKind]: { readonly kind: K } & Given<Parameters<K>> }[FaultKind]
+type ActionOf<Kind extends FaultKind> = { [K in Kind]: { readonly kind: K } & Given<Parameters<K>> }[Kind]
+/** A fault of one kind with its parameters, as it is switched on in a simulated MELSEC PLC. */
+export type FaultAction = ActionOf<MelsecFaultKind>
+/** A fault of one kind with its parameters, as it is switched on in a simulated Sharp JW. */
+export type JwFaultAction = ActionOf<JwFaultKind>
 
 /** The parameters of a kind with every default filled in. */
 export type FaultSettings<K extends FaultKind> = {

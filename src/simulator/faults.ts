@@ -1,13 +1,20 @@
 // Fault switches: which faults are on, for which requests, and how often still.
 import { badOption } from '../basics/option-checks'
 import { type CommandName, commands } from '../melsec/commands/commands'
-import { type FaultAction, type FaultKind, type FaultParameter, type FaultSettings, faultKinds } from './fault-kinds'
+import {
+  absentFaults,
+  type FaultAction,
+  type FaultKind,
+  type FaultParameter,
+  type FaultSettings,
+  faultKinds,
+} from './fault-kinds'
 
 /** A request (or, for `closeOnAccept`, a connection) that a fault may meet. */
-export interface FaultSubject {
+export interface FaultSubject<Name extends string = CommandName> {
   /** Name of the command; undefined when it is none that is declared. */
-  readonly command: CommandName | undefined
-  /** Its subcommand. */
+  readonly command: Name | undefined
+  /** Its subcommand; 0 where there is none. */
   readonly subcommand: number
   /** Number of the connection, counting from 1. */
   readonly connection: number
@@ -18,13 +25,13 @@ export interface FaultSubject {
 }
 
 /** Which requests a fault meets. */
-export interface FaultAim {
+export interface FaultAim<Name extends string = CommandName> {
   /** Only these commands. */
-  readonly commands?: readonly CommandName[]
+  readonly commands?: readonly Name[]
   /** So often, then it is over. Default: until it is removed. */
   readonly times?: number
   /** Only where this says true. */
-  readonly when?: (subject: FaultSubject) => boolean
+  readonly when?: (subject: FaultSubject<Name>) => boolean
 }
 
 /**
@@ -32,40 +39,63 @@ export interface FaultAim {
  * @example { kind: 'split', at: 9 }
  * @example { kind: 'endCode', endCode: 0x4031, commands: ['writeWords'], times: 1 }
  */
-export type Fault = FaultAction & FaultAim
+export type Fault<Name extends string = CommandName, Action extends AnyAction = FaultAction> = Action & FaultAim<Name>
+
+/** A fault of any family. */
+export interface AnyAction {
+  /** What it is. */
+  readonly kind: FaultKind
+}
 
 /** A fault that is on. */
-export interface ActiveFault {
+export interface ActiveFault<Name extends string = CommandName, Action extends AnyAction = FaultAction> {
   /** As it was given. */
-  readonly fault: Fault
+  readonly fault: Fault<Name, Action>
   /** How often it has struck. */
   readonly struck: number
   /** Switches it off. */
   remove(): void
 }
 
-interface Entry {
-  readonly fault: Fault
+/** What faults of a family of PLCs can be about. */
+export interface FaultFamily {
+  /** Names of its commands. */
+  readonly commands: readonly string[]
+  /** Kinds that it does not have. */
+  readonly absent: readonly FaultKind[]
+  /** The highest end code that its answers have room for. */
+  readonly highestCode: number
+}
+
+const MELSEC: FaultFamily = { commands: Object.keys(commands), absent: absentFaults.melsec, highestCode: 0xffff }
+
+interface Entry<Name extends string, Action extends AnyAction> {
+  readonly fault: Fault<Name, Action>
   readonly settings: Readonly<Record<string, number | string>>
   struck: number
 }
 
 /** The fault switches of a simulated PLC. Several may be on; of one kind the first that fits strikes. */
-export class Faults {
-  #entries: readonly Entry[] = []
+export class Faults<Name extends string = CommandName, Action extends AnyAction = FaultAction> {
+  readonly #family: FaultFamily
+  #entries: readonly Entry<Name, Action>[] = []
+
+  constructor(family: FaultFamily = MELSEC) {
+    this.#family = family
+  }
 
   /** Whether none is on. */
   get none(): boolean {
     return this.#entries.length === 0
   }
 
-  get active(): readonly Fault[] {
+  get active(): readonly Fault<Name, Action>[] {
     return this.#entries.map(({ fault }) => fault)
   }
 
   /** @throws RequestError BAD_OPTION */
-  add(fault: Fault): ActiveFault {
-    const entry: Entry = { fault, settings: settingsOf(fault), struck: 0 }
+  add(fault: Fault<Name, Action>): ActiveFault<Name, Action> {
+    const entry: Entry<Name, Action> = { fault, settings: settingsOf(fault, this.#family), struck: 0 }
     this.#entries = [...this.#entries, entry]
     return {
       fault,
@@ -82,7 +112,7 @@ export class Faults {
   }
 
   /** The settings of the first fault of the kind that fits; it has struck then. */
-  take<K extends FaultKind>(kind: K, subject: FaultSubject): FaultSettings<K> | undefined {
+  take<K extends FaultKind>(kind: K, subject: FaultSubject<Name>): FaultSettings<K> | undefined {
     const entry = this.#find(kind, subject)
     if (entry === undefined) return undefined
     entry.struck++
@@ -92,43 +122,60 @@ export class Faults {
   }
 
   /** As `take`, without striking. */
-  peek<K extends FaultKind>(kind: K, subject: FaultSubject): FaultSettings<K> | undefined {
+  peek<K extends FaultKind>(kind: K, subject: FaultSubject<Name>): FaultSettings<K> | undefined {
     return this.#find(kind, subject)?.settings as FaultSettings<K> | undefined
   }
 
-  #find(kind: FaultKind, subject: FaultSubject): Entry | undefined {
-    return this.#entries.find(({ fault }) => fault.kind === kind && meets(fault, subject))
+  #find(kind: FaultKind, subject: FaultSubject<Name>): Entry<Name, Action> | undefined {
+    return this.#entries.find(({ fault }) => kindOf(fault) === kind && meets(fault, subject))
   }
 
-  #remove(entry: Entry): void {
+  #remove(entry: Entry<Name, Action>): void {
     this.#entries = this.#entries.filter((other) => other !== entry)
   }
 }
 
-function meets({ commands: only, when }: Fault, subject: FaultSubject): boolean {
+/** Compared with any kind. */
+function kindOf({ kind }: { readonly kind: FaultKind }): FaultKind {
+  return kind
+}
+
+function meets<Name extends string>({ commands: only, when }: FaultAim<Name>, subject: FaultSubject<Name>): boolean {
   if (only !== undefined && (subject.command === undefined || !only.includes(subject.command))) return false
   return when === undefined || when(subject)
 }
 
 const AIM: readonly string[] = ['kind', 'commands', 'times', 'when'] satisfies readonly (keyof Fault)[]
 
+/** A fault as it was given, whatever its family. */
+interface GivenFault extends Pick<FaultAim<string>, 'commands' | 'times'> {
+  readonly kind: FaultKind
+  readonly when?: unknown
+}
+
 /** Checks a fault and fills in the defaults. */
-function settingsOf(fault: Fault): Readonly<Record<string, number | string>> {
-  if (!Object.hasOwn(faultKinds, fault.kind)) {
-    badOption('kind', `There is no fault ${JSON.stringify(fault.kind)}: choose ${Object.keys(faultKinds).join(', ')}.`)
+function settingsOf(fault: GivenFault, family: FaultFamily): Readonly<Record<string, number | string>> {
+  const { kind } = fault
+  if (!Object.hasOwn(faultKinds, kind) || family.absent.includes(kind)) {
+    const kinds = Object.keys(faultKinds).filter((name) => !family.absent.some((other) => other === name))
+    badOption('kind', `There is no fault ${JSON.stringify(kind)}: choose ${kinds.join(', ')}.`)
   }
-  const parameters: Readonly<Record<string, FaultParameter>> = faultKinds[fault.kind].parameters
+  const parameters: Readonly<Record<string, FaultParameter>> = faultKinds[kind].parameters
   for (const name of Object.keys(fault)) {
     if (AIM.includes(name) || Object.hasOwn(parameters, name)) continue
-    badOption(name, `Fault ${fault.kind} has no ${name}: it has ${[...Object.keys(parameters), ...AIM].join(', ')}.`)
+    badOption(name, `Fault ${kind} has no ${name}: it has ${[...Object.keys(parameters), ...AIM].join(', ')}.`)
   }
-  checkAim(fault)
+  checkAim(fault, family)
   const given = new Map<string, unknown>(Object.entries(fault))
   const settings = Object.entries(parameters).map(([name, parameter]) => [
     name,
-    setting(`${fault.kind}.${name}`, parameter, given.get(name)),
+    setting(`${kind}.${name}`, within(name, parameter, family), given.get(name)),
   ])
   return Object.fromEntries(settings)
+}
+
+function within(name: string, parameter: FaultParameter, { highestCode }: FaultFamily): FaultParameter {
+  return name === 'endCode' && 'min' in parameter ? { ...parameter, max: highestCode } : parameter
 }
 
 function setting(field: string, parameter: FaultParameter, given: unknown): number | string {
@@ -141,13 +188,17 @@ function setting(field: string, parameter: FaultParameter, given: unknown): numb
     )
   }
   const { min, max = Number.MAX_SAFE_INTEGER } = parameter
+  const end = max === Number.MAX_SAFE_INTEGER ? '' : ` to ${max}`
   if (typeof value === 'number' && Number.isInteger(value) && value >= min && value <= max) return value
-  return badOption(field, `Fault ${field} (${parameter.title}) is a whole number from ${min}, not ${String(value)}.`)
+  return badOption(
+    field,
+    `Fault ${field} (${parameter.title}) is a whole number from ${min}${end}, not ${String(value)}.`,
+  )
 }
 
-function checkAim({ commands: only, times, when }: Fault): void {
+function checkAim({ commands: only, times, when }: GivenFault, { commands: names }: FaultFamily): void {
   for (const name of only ?? []) {
-    if (!Object.hasOwn(commands, name)) badOption('commands', `There is no command ${String(name)}.`)
+    if (!names.includes(name)) badOption('commands', `There is no command ${String(name)}.`)
   }
   if (times !== undefined && !(Number.isInteger(times) && times > 0)) {
     badOption('times', `A fault strikes a whole number of times from 1, not ${String(times)}.`)

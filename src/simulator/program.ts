@@ -1,10 +1,12 @@
 // What a program has of a simulated PLC: the sides of its parts that are for users. A process that is simulated, or a test,
 // reads and writes by them. Nothing is sent.
+import type { CommandName } from '../melsec/commands/commands'
 import type { DeviceName } from '../melsec/device/device'
 import type { PlcValue, ValueFormat, ValueOf } from '../value/value'
 import type { CpuState, Hold, SwitchPosition } from './cpu'
 import type { LoggedError } from './error-log'
-import type { ActiveFault, Fault } from './faults'
+import type { FaultAction } from './fault-kinds'
+import type { ActiveFault, AnyAction, Fault } from './faults'
 import type { OpenFile } from './files'
 
 /**
@@ -102,11 +104,11 @@ export interface SimulatedErrors {
 }
 
 /** The fault switches of a simulated PLC. Several may be on; of one kind the first that fits strikes. */
-export interface FaultSwitches {
+export interface FaultSwitches<Name extends string = CommandName, Action extends AnyAction = FaultAction> {
   /** The faults that are on. */
-  readonly active: readonly Fault[]
+  readonly active: readonly Fault<Name, Action>[]
   /** Switches a fault on. @throws RequestError BAD_OPTION */
-  add(fault: Fault): ActiveFault
+  add(fault: Fault<Name, Action>): ActiveFault<Name, Action>
   /** Switches everything off. */
   clear(): void
 }

@@ -2,7 +2,7 @@
 export type { RequestEvent } from './connection'
 export type { CpuState, Hold, StateChange, SwitchPosition } from './cpu'
 export type { LoggedError } from './error-log'
-export type { FaultAction } from './fault-kinds'
+export type { FaultAction, JwFaultAction, JwFaultKind, MelsecFaultKind } from './fault-kinds'
 export {
   type ChoiceParameter,
   type FaultDescription,
@@ -11,7 +11,7 @@ export {
   faultKinds,
   type NumberParameter,
 } from './fault-kinds'
-export type { ActiveFault, Fault, FaultAim, FaultSubject } from './faults'
+export type { ActiveFault, AnyAction, Fault, FaultAim, FaultSubject } from './faults'
 export type { OpenFile } from './files'
 export type { SimulatedLabel, SimulatedLabels } from './labels'
 export {
