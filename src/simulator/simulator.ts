@@ -13,6 +13,21 @@ export {
 } from './fault-kinds'
 export type { ActiveFault, AnyAction, Fault, FaultAim, FaultSubject } from './faults'
 export type { OpenFile } from './files'
+export type { SimulatedBuffer, SimulatedRingBuffer } from './jw/buffers'
+export type { JwRequestEvent } from './jw/connection'
+export type { JwStateChange, JwWriteMode, SimulatedJwCpu } from './jw/cpu'
+export type { JwCommandName } from './jw/handler'
+export type { JwSimulatorOptions } from './jw/options'
+export type { JwProgramMemory } from './jw/program-memory'
+export {
+  createJwSimulator,
+  type JwSimulator,
+  type JwSimulatorEvents,
+  type JwWriteEvent,
+  type ProgramRingBuffers,
+} from './jw/server'
+export type { SimulatedTimer, SimulatedTimers } from './jw/timers'
+export type { JwUnitKind, OptionUnitState, SimulatedOptionUnit } from './jw/units'
 export type { SimulatedLabel, SimulatedLabels } from './labels'
 export {
   createLineSimulator,

@@ -1,0 +1,25 @@
+// Result codes as the simulated JW gives them (JW300 option unit manual, "Message form"), by what they mean there.
+
+export const result = {
+  format: 0x01,
+  noPreset: 0x02,
+  isMd: 0x04,
+  notStopped: 0x06,
+  notWritten: 0x07,
+  capacity: 0x08,
+  writeMode: 0x10,
+  timerWhileStopped: 0x13,
+  noPassword: 0x30,
+  notReleased: 0x31,
+  badPassword: 0x32,
+  wrongPassword: 0x33,
+  noClock: 0x34,
+  ringUndefined: 0x40,
+  ringInvalid: 0x41,
+  ringPointer: 0x42,
+  ringFull: 0x43,
+  ringOver: 0x44,
+  bufferUndefined: 0x48,
+  bufferInvalid: 0x49,
+  bufferOver: 0x4c,
+} as const
