@@ -39,12 +39,13 @@ export function serialReport(tallies: readonly SerialTally[]): string {
       .map(([name, count]) => `${name} ${count}`)
       .join(', ')
   return tallies
-    .map(({ kind, told, outcomes, truth, violations, ms }) => {
+    .map(({ kind, told, outcomes, truth, violations, story, ms }) => {
       const faults = Object.values(truth.struck).reduce((sum, count) => sum + count, 0)
       const rows = [
         `${kind.name}: ${told} calls, ${truth.requests} requests, ${(ms / 1000).toFixed(1)} s (${counts(outcomes)})`,
         `  ${faults} faults: ${counts(truth.struck) || 'none'}; ${truth.asleep} chunks lost asleep`,
         ...violations.slice(0, SHOWN).map(({ kind: what, detail }) => `  VIOLATION ${what}: ${detail}`),
+        ...story.map((line) => `    ${line}`),
         `  violations: ${violations.length}`,
       ]
       return `${rows.join('\n')}\n`

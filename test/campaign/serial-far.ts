@@ -37,7 +37,7 @@ export interface Truth {
   readonly done: readonly Carried[]
   /** How often each kind of fault struck. */
   readonly struck: Readonly<Record<string, number>>
-  /** Chunks that came while the program was not run: lost. */
+  /** Chunks that were lost because the program was not run for a while. */
   readonly asleep: number
   readonly requests: number
 }
@@ -66,11 +66,20 @@ export class Far {
     return this.#pair.near
   }
 
-  async truth(): Promise<Truth> {
+  truth(): Promise<Truth> {
+    return this.#ask<Truth>('truth')
+  }
+
+  /** What went over the wire, and when; nothing where nothing was to go wrong. */
+  story(): Promise<readonly (readonly [number, string])[]> {
+    return this.#ask('story')
+  }
+
+  async #ask<T>(what: string): Promise<T> {
     const told = once(this.#child, 'message')
-    this.#child.send('truth')
-    const [truth] = (await told) as [Truth]
-    return truth
+    this.#child.send(what)
+    const [answer] = (await told) as [T]
+    return answer
   }
 
   async close(): Promise<void> {

@@ -40,6 +40,8 @@ export const serialViolations = [
 export interface SerialViolation {
   readonly kind: (typeof serialViolations)[number]
   readonly detail: string
+  readonly from: number
+  readonly to: number
 }
 
 export interface Facts {
@@ -58,10 +60,14 @@ interface Held {
 
 export function judge(facts: Facts): SerialViolation[] {
   const found: SerialViolation[] = []
-  const report = (kind: SerialViolation['kind'], detail: string) => void found.push({ kind, detail })
+  const reportAt =
+    (from: number, to: number): Report =>
+    (kind, detail) =>
+      void found.push({ kind, detail, from, to })
   const past = pastOf(facts)
-  const times = carriedOut(facts, report)
+  const times = carriedOut(facts, reportAt)
   for (const call of facts.told) {
+    const report = reportAt(call.from, call.to)
     const error = call.error === undefined ? '' : ` (${String(call.error)})`
     const name = `${call.name}, ${call.from.toFixed(1)} to ${call.to.toFixed(1)}, told as ${call.outcome}${error}`
     if (call.outcome === 'no PlcError') report('no PlcError', name)
@@ -90,7 +96,10 @@ function pastOf({ carried, told, initial }: Facts): (station: number, number: nu
 }
 
 /** @returns when the write of a value was carried out */
-function carriedOut({ carried, told }: Facts, report: Report): ReadonlyMap<number, readonly number[]> {
+function carriedOut(
+  { carried, told }: Facts,
+  reportAt: (from: number, to: number) => Report,
+): ReadonlyMap<number, readonly number[]> {
   const times = new Map<number, number[]>()
   const asked = new Map<number, string>()
   for (const { kind, station, numbers, values } of told) {
@@ -98,6 +107,7 @@ function carriedOut({ carried, told }: Facts, report: Report): ReadonlyMap<numbe
       for (const [i, value] of values.entries()) asked.set(Number(value), `${station} ${numbers[i]}`)
   }
   for (const { at, station, cells } of carried) {
+    const report = reportAt(at, at)
     for (const [number, value] of cells) {
       const before = times.get(value) ?? []
       times.set(value, [...before, at])

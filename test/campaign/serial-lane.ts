@@ -47,6 +47,8 @@ export interface SerialTally {
   readonly outcomes: Readonly<Record<string, number>>
   readonly truth: Truth
   readonly violations: readonly SerialViolation[]
+  /** What went over the wire about the first of them. */
+  readonly story: readonly string[]
   readonly ms: number
 }
 
@@ -64,6 +66,8 @@ const SHARE = 0.08
 /** Of a hundred calls. */
 const WRITES = 45
 const SETTLED = 30_000
+/** ms of the story before a call. */
+const BEFORE = 500
 
 /** Faults that a client can see without a sum: those that change no character. */
 const wholeFaults = ['silence', 'drop', 'slow', 'late', 'held', 'split', 'dribble', 'cut', 'refusal'] as const
@@ -137,11 +141,19 @@ export async function serialLane({ kind, seed, requests, faults, double }: Seria
       told: lane.told,
       isQuiet: !kind.noise,
     })
-    return { kind, told: lane.told.length, outcomes: lane.outcomes(), truth, violations, ms: now() - started }
+    const story = await storyOf(far, violations)
+    return { kind, told: lane.told.length, outcomes: lane.outcomes(), truth, violations, story, ms: now() - started }
   } finally {
     await Promise.all(clients.map((client) => client.close()))
     await far.close()
   }
+}
+
+async function storyOf(far: Far, [first]: readonly SerialViolation[]): Promise<string[]> {
+  if (first === undefined) return []
+  const story = await far.story()
+  const about = story.filter(([at]) => at > first.from - BEFORE && at < first.to + 1)
+  return about.map(([at, what]) => `${at.toFixed(1)} ${what}`)
 }
 
 class Lane {

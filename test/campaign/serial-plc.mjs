@@ -118,35 +118,64 @@ function onWire(place, bytes) {
   return Buffer.concat([before, Buffer.from(middle), behind])
 }
 
-/** Longer than this the program was not run, and a PLC that sleeps has heard nothing. */
-const LONGEST_SLEEP = 40
+// A PLC that is late because its computer was busy is no fault of the client: a PLC that has slept says and hears nothing for a
+// moment, as one that is switched on.
+const LONGEST_SLEEP = 30
+const MOMENT = 25
 let awake = now()
+let dazedUntil = 0
 let asleep = 0
+
+function isDazed() {
+  const time = now()
+  if (time - awake > LONGEST_SLEEP) dazedUntil = time + MOMENT
+  awake = time
+  if (time >= dazedUntil) return false
+  asleep += 1
+  return true
+}
+
+/** What went over the wire, for the story of a violation. */
+const story = []
+const tell = (what, bytes = Buffer.alloc(0)) =>
+  story.push([now(), `${what} ${JSON.stringify(bytes.toString('latin1'))}`])
 
 function openNoisy() {
   setInterval(() => {
+    if (now() - awake > LONGEST_SLEEP) dazedUntil = now() + MOMENT
     awake = now()
   }, 5)
   const simulated = line.connect()()
   const tty = new SerialPort({ path, baudRate, dataBits: 8, parity: 'none', stopBits: 1, lock: true, autoOpen: false })
-  simulated.open({ opened() {}, closed() {}, received: (bytes) => tty.write(onWire('answer', Buffer.from(bytes))) })
+  simulated.open({ opened() {}, closed() {}, received: (bytes) => sayToHost(tty, Buffer.from(bytes)) })
   tty.on('data', (bytes) => {
-    if (now() - awake > LONGEST_SLEEP) {
-      asleep += 1
+    if (isDazed()) {
+      tell('slept through', bytes)
       return
     }
     const place = bytes.length > 4 ? 'request' : 'initialise'
     if (place === 'request') arm()
     const left = onWire(place, bytes)
+    tell(`< ${armed?.name ?? ''}`, left)
     if (left.length > 0) simulated.send(left)
   })
   return new Promise((resolve, reject) => tty.open((error) => (error === null ? resolve() : reject(error))))
 }
 
+function sayToHost(tty, bytes) {
+  if (isDazed()) {
+    tell('overslept', bytes)
+    return
+  }
+  const left = onWire('answer', bytes)
+  tell('>', left)
+  tty.write(left)
+}
+
 process.on('disconnect', () => process.exit())
 process.on('message', (what) => {
   if (what === 'truth') process.send({ done, struck, asleep, requests: line.statistics.requests })
-  if (what === 'quiet') noise.share = 0
+  if (what === 'story') process.send(story)
 })
 if (noise === undefined) await line.listen()
 else await openNoisy()
