@@ -2,7 +2,7 @@
 import { EndCodeError, endsConnection, type PlcError, ProtocolError } from '../../errors'
 import type { JobEnd, RequestFrame, ResponseFrame, RoundTrips } from '../../link/link'
 import type { Call } from './call'
-import type { ConnectionOptions, TracedFrame } from './connection-options'
+import type { ConnectionOptions, Silence, TracedFrame } from './connection-options'
 import * as failure from './failure'
 import type { Line, LineEnd, LineUser } from './line'
 import { Opening } from './opening'
@@ -24,8 +24,8 @@ export interface AttemptOwner {
   /** It is of no use any more: the owner ends it. */
   lost(error: PlcError): void
   trace(direction: TracedFrame['direction'], bytes: Buffer): void
-  /** Ranked causes of a silence of this peer. `asked`: the client's own request, when it was asked no other. */
-  causes(peer: string, asked?: string): readonly string[]
+  /** Ranked causes of a silence of this peer. */
+  causes(silence: Omit<Silence, 'answeredBefore'>): readonly string[]
   /** The client's own requests that got no answer on the connections just before. */
   readonly unanswered: readonly string[]
 }
@@ -153,7 +153,12 @@ export class Attempt implements LineUser {
 
   #causes(): readonly string[] {
     const asked = this.#askedAlone()
-    return this.#owner.causes(this.peer, asked.length === 1 ? asked[0] : undefined)
+    return this.#owner.causes({ ...this.noticed, ...(asked.length === 1 ? { onlyAsked: asked[0] ?? '' } : {}) })
+  }
+
+  /** What came of this attempt that is no answer. */
+  get noticed(): Pick<Silence, 'peer' | 'heard' | 'othersAnswer'> {
+    return { peer: this.peer, heard: this.#receivedAnything, othersAnswer: this.#line.othersAnswer(this) }
   }
 
   /** Sends it when its turn comes. `flush` afterwards. */

@@ -60,10 +60,7 @@ export class Connection {
       trace: (direction, bytes) => {
         if (this.onTrace !== undefined) tellListener(this.onTrace, { time: this.#clock.time(), direction, bytes })
       },
-      causes: (peer, asked) => {
-        const onlyAsked = asked === undefined ? {} : { onlyAsked: asked }
-        return explainSilence({ peer, answeredBefore: this.#answeredBefore, ...onlyAsked })
-      },
+      causes: (silence) => explainSilence({ ...silence, answeredBefore: this.#answeredBefore }),
       get unanswered() {
         return probing.unanswered
       },
@@ -335,8 +332,8 @@ export class Connection {
   /** A call that waited for the connection in vain. */
   #notConnected(call: Call): void {
     if (call.sends) this.#counters.counts.timeouts += 1
-    const { peer = 'the PLC', isOpen: open = false, probing: asked } = this.#attempt ?? {}
-    const causes = open ? this.#owner.causes(peer, asked) : []
+    const { peer = 'the PLC', isOpen: open = false, probing: asked, noticed = { peer } } = this.#attempt ?? {}
+    const causes = open ? this.#owner.causes({ ...noticed, ...(asked === undefined ? {} : { onlyAsked: asked }) }) : []
     const attempt = { peer, open, causes, reason: this.#supervisor.error, asked }
     call.fail(failure.notConnectedInTime(call.sends ? call.exchange.title : undefined, attempt))
   }

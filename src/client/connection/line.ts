@@ -93,6 +93,8 @@ export class Line {
   readonly #options: LineOptions
   readonly #alarm: Alarm
   readonly #users = new Set<LineUser>()
+  /** Those who were answered. */
+  readonly #answered = new WeakSet<LineUser>()
   readonly #serials: SerialNumbers
   readonly #fence: Fence
   /** The only one of them, as on most lines. */
@@ -187,6 +189,11 @@ export class Line {
   /** Requests of this user that wait for their turn and change the PLC. */
   queuedChanges(user: LineUser): number {
     return this.#carrier?.session?.counts((call) => call.plc === user && call.priority === 'control').queued ?? 0
+  }
+
+  /** Whether other PLCs answer on it. */
+  othersAnswer(user: LineUser): boolean {
+    return [...this.#users].some((other) => other !== user && this.#answered.has(other))
   }
 
   #userOf({ plc }: Call): LineUser | undefined {
@@ -344,9 +351,12 @@ export class Line {
 
   #take(event: SessionEvent<Call>): void {
     switch (event.kind) {
-      case 'done':
-        this.#userOf(event.job)?.settled(event)
+      case 'done': {
+        const user = this.#userOf(event.job)
+        if (user !== undefined && event.outcome.kind === 'answered') this.#answered.add(user)
+        user?.settled(event)
         return
+      }
       case 'unsolicited':
         for (const user of [...this.#users]) user.unsolicited(event.frame)
         return
