@@ -5,16 +5,24 @@
  * not deployed yet. Answer: `{ results }`, for each item `{ ok: true, ...ItemExplanation }` or `{ ok: false, message }`.
  */
 import type { NodeAPI } from 'node-red'
-import { createMelsecClient, type ItemExplanation, type MelsecClient } from '../src/index'
+import {
+  createMelsecClient,
+  createMelsecLine,
+  type ItemExplanation,
+  type MelsecClient,
+  type MelsecClientOptions,
+} from '../src/index'
 import { endpoint, objectIn, type Reply } from './admin'
-import { settingsOf, speech } from './connection-settings'
+import { isOnLine, LINE_PROFILE, settingsOf, speech, speechOnLine } from './connection-settings'
 import { detailsOf } from './failure'
+import { type LineContext, lineOptionsOf, lineSettingsOf } from './line-settings'
 import type { StoredSettings } from './migration'
 import { itemOf } from './stored'
 import type { Texts } from './texts'
 
 /** More rows than a person types. */
 const MOST_ITEMS = 1000
+const NOWHERE = { host: 'nowhere', port: 1 } as const
 /** Longer than any address. */
 const LONGEST = 500
 
@@ -36,14 +44,28 @@ function check(body: StoredSettings, texts: Texts): Reply {
 /** A client that never connects: it knows how addresses of this PLC are written, and nothing of where it is. */
 export function speaker(given: StoredSettings, texts: Texts): MelsecClient | { readonly problem: string } {
   try {
-    // What decides about addresses is chosen from lists, so it holds no variables; the rest does not matter here.
-    const { profile, ...said } = settingsOf(given, { texts, resolve: (text) => text })
-    const { frame, code, asciiXy, asciiZr, xyRadix, wRadix } = said
-    const chosen = { profile: profile === '' ? 'generic' : profile, frame, code, asciiXy, asciiZr, xyRadix, wRadix }
-    const settings = settingsOf(chosen, { texts, resolve: (text) => text })
-    return createMelsecClient({ host: 'nowhere', port: 1, ...speech(settings, texts) })
+    return createMelsecClient(speakerOptions(given, { texts, labels: texts, resolve: (text) => text }))
   } catch (error) {
     return { problem: texts('error.connection', { message: detailsOf(error, texts).message }) }
+  }
+}
+
+/** What decides about addresses is chosen from lists, so it holds no variables; the rest does not matter here. */
+function speakerOptions(given: StoredSettings, context: LineContext): MelsecClientOptions {
+  const { texts } = context
+  const settings = settingsOf(given, context)
+  const { profile, way, frame, code, asciiXy, asciiZr, xyRadix, wRadix } = settings
+  const said = { way, asciiXy, asciiZr, xyRadix, wRadix }
+  if (!isOnLine(settings, texts)) {
+    const chosen = { ...said, profile: profile === '' ? 'generic' : profile, frame, code }
+    return { ...NOWHERE, ...speech(settingsOf(chosen, context), texts) }
+  }
+  const { messageFormat } = given
+  const line = lineSettingsOf({ ...NOWHERE, transport: 'tcp', frame: given.lineFrame, messageFormat }, context)
+  const chosen = { ...said, profile: profile === '' ? LINE_PROFILE : profile }
+  return {
+    line: createMelsecLine(lineOptionsOf(line, context)),
+    ...speechOnLine(settingsOf(chosen, context), texts),
   }
 }
 

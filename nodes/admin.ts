@@ -12,7 +12,7 @@ export interface Reply {
 /** Larger than any dialog of ours can send. */
 const LARGEST = 100_000
 
-/** Longest an endpoint works on an answer, in ms. */
+/** Longest an endpoint works on an answer, in ms, unless it says otherwise. */
 const PATIENCE = 20_000
 
 /** The signal is aborted when the editor no longer waits for the answer, and when it took too long. */
@@ -20,13 +20,20 @@ export type Handler = (body: StoredSettings, over: AbortSignal) => Reply | Promi
 
 /**
  * A POST endpoint of the admin API that takes and gives JSON.
- * @param permission e.g. `melsec-jw.write`, checked by Node-RED's own user management
+ * @param rule permission, e.g. `melsec-jw.write`, checked by Node-RED's own user management, and how long it may work, ms
  */
-export function endpoint(RED: NodeAPI, path: string, permission: string, texts: Texts, handler: Handler): void {
+export function endpoint(
+  RED: NodeAPI,
+  path: string,
+  rule: string | { readonly permission: string; readonly patience: number },
+  texts: Texts,
+  handler: Handler,
+): void {
+  const { permission, patience } = typeof rule === 'string' ? { permission: rule, patience: PATIENCE } : rule
   RED.httpAdmin.post(path, RED.auth.needsPermission(permission), (request, response) => {
     const over = new AbortController()
     response.on('close', () => over.abort())
-    AbortSignal.timeout(PATIENCE).addEventListener('abort', () => over.abort(), { once: true })
+    AbortSignal.timeout(patience).addEventListener('abort', () => over.abort(), { once: true })
     const body: unknown = request.body
     answer(body, over.signal, handler, texts).then(
       (reply) => response.status(reply.status).json(reply.body),

@@ -1,23 +1,41 @@
 // The settings of a connection as a flow stores them, and the client's options made of them.
-import type { Node, NodeAPI } from 'node-red'
-import type { MelsecOptions, NetworkPlc, ProfileId, Route, ValueFormat } from '../src/index'
-import { encodings, frameNames, probeKinds, profileIds, transportNames } from '../src/index'
-import { type NodeFailure, refusal } from './failure'
+import type {
+  MelsecLine,
+  MelsecOptions,
+  NetworkPlc,
+  PlcOnLine,
+  ProfileId,
+  RouteOptions,
+  ValueFormat,
+} from '../src/index'
+import { encodings, ethernetFrameNames, probeKinds, profileIds, profiles } from '../src/index'
+import { Fields, present, type SettingsContext } from './fields'
 import type { Texts } from './texts'
-import { withVariables } from './typed-input'
 
 /**
  * What the editor stores. Numbers are text as typed, `''` is the default of the PLC series or the system, and any
  * text may hold `${NAME}`.
  */
 export interface ConnectionSettings {
+  /** `ethernet` or `serial`; `''` is `ethernet`. */
+  readonly way: string
+  /** Id of the serial line. */
+  readonly line: string
+  /** Station number on the serial line. */
+  readonly lineStation: string
+  /** PC number, on a serial line. */
+  readonly pc: string
+  /** Self station number, on a serial line. */
+  readonly selfStation: string
+  /** ms; 1C frames. */
+  readonly messageWait: string
   readonly host: string
   readonly port: string
   readonly transport: string
   readonly localAddress: string
   readonly localPort: string
   readonly profile: string
-  /** One of `frameNames` or `''`. */
+  /** One of `ethernetFrameNames` or `''`. */
   readonly frame: string
   /** `binary` or `ascii`. */
   readonly code: string
@@ -59,6 +77,12 @@ export interface ConnectionSettings {
 }
 
 const TEXT_FIELDS = [
+  'way',
+  'line',
+  'lineStation',
+  'pc',
+  'selfStation',
+  'messageWait',
   'host',
   'port',
   'transport',
@@ -93,172 +117,162 @@ type TextField = (typeof TEXT_FIELDS)[number]
 /** ms: a line that runs again should not wait half a minute for its values, and one attempt in five seconds costs a PLC nothing. */
 export const LONGEST_PAUSE = 5000
 
-/** Longer than any host name or number: what is longer is no setting. */
-const LONGEST = 255
+/** Where a series is yet to be found out: it knows every serial frame. */
+export const LINE_PROFILE = 'fx5-serial' satisfies ProfileId
 
-/** Turns `${NAME}` into its value. */
-export type Resolve = (text: string) => string
+/** The transports of an Ethernet port. */
+const TRANSPORTS = ['tcp', 'udp'] as const
 
-/** How settings are read: the texts of refusals, and the environment. */
-export interface SettingsContext {
-  readonly texts: Texts
-  readonly resolve: Resolve
+/** What stands in the settings of a new connection and says nothing: the frames of a serial line do not all have these fields. */
+const OWN_ROUTE: Readonly<Partial<Record<TextField, string>>> = {
+  network: '0',
+  pc: '255',
+  moduleIo: '3FF',
+  multidrop: '0',
+  selfStation: '0',
 }
 
-/** @param node the connection, for the variables of its flow; `null` when it is not deployed */
-export function resolverOf(RED: NodeAPI, node: Node, texts: Texts): Resolve {
-  return (text) =>
-    withVariables(RED, node, text, (name) => refusal('NOT_CONFIGURED', texts('error.variable', { name })))
+function fieldsOf(texts: Texts): Fields<TextField> {
+  return new Fields(texts, (field) => texts(`label.${field}`), 'error.missing')
 }
 
 /**
  * Settings from a stored configuration or a request of the editor, with variables replaced.
  * @throws NodeFailure NOT_CONFIGURED naming the field that is no text.
  */
-export function settingsOf(given: Readonly<Record<string, unknown>>, context: SettingsContext): ConnectionSettings {
-  const entries = TEXT_FIELDS.map((field): [TextField, string] => [field, textOf(given[field], field, context)])
+export function settingsOf(
+  given: Readonly<Record<string, unknown>>,
+  { texts, resolve }: SettingsContext,
+): ConnectionSettings {
   return {
-    ...(Object.fromEntries(entries) as Record<TextField, string>),
+    ...fieldsOf(texts).textsOf(given, TEXT_FIELDS, resolve),
     allowWrites: given.allowWrites === true,
     allowControl: given.allowControl === true,
   }
 }
 
-function textOf(value: unknown, field: TextField, { texts, resolve }: SettingsContext): string {
-  if (value === undefined || value === null) return ''
-  const plain = typeof value === 'number' ? String(value) : value
-  if (typeof plain !== 'string' || plain.length > LONGEST) throw bad(texts, field, 'error.notText')
-  return resolve(plain).trim()
-}
-
-function bad(
-  texts: Texts,
-  field: keyof ConnectionSettings,
-  key: string,
-  values: Record<string, string> = {},
-): NodeFailure {
-  return refusal('NOT_CONFIGURED', texts(key, { ...values, field: texts(`label.${field}`) }), { field })
+/** Whether the PLC is on a serial line. @throws NodeFailure NOT_CONFIGURED for anything else than the two ways */
+export function isOnLine(settings: ConnectionSettings, texts: Texts): boolean {
+  return fieldsOf(texts).choice(settings, 'way', ['ethernet', 'serial']) === 'serial'
 }
 
 /**
  * The client's options. Ranges and combinations are the client's business; here only texts become numbers.
+ * @param lineOf the serial line with this id, when the PLC is on one; it throws where there is none
  * @throws NodeFailure NOT_CONFIGURED naming the field.
  */
-export function optionsOf(settings: ConnectionSettings, texts: Texts): MelsecOptions & NetworkPlc {
-  if (settings.host === '') throw bad(texts, 'host', 'error.missing')
+export function optionsOf(
+  settings: ConnectionSettings,
+  texts: Texts,
+  lineOf: (id: string) => MelsecLine,
+): MelsecOptions & (NetworkPlc | PlcOnLine) {
+  if (!isOnLine(settings, texts)) return networkOptionsOf(settings, texts)
+  return { line: lineOf(settings.line), ...speechOnLine(settings, texts) }
+}
+
+/** Of a PLC by a network. @throws NodeFailure NOT_CONFIGURED naming the field. */
+export function networkOptionsOf(settings: ConnectionSettings, texts: Texts): MelsecOptions & NetworkPlc {
+  const fields = fieldsOf(texts)
   return {
-    host: settings.host,
-    port: wholeNumber(settings, 'port', texts) ?? missing('port', texts),
+    host: settings.host === '' ? fields.missing('host') : settings.host,
+    port: fields.wholeNumber(settings, 'port') ?? fields.missing('port'),
     ...speech(settings, texts),
   }
 }
 
 /** Everything but where the PLC is: enough to read addresses. */
 export function speech(settings: ConnectionSettings, texts: Texts): MelsecOptions {
-  const number = (field: TextField) => wholeNumber(settings, field, texts)
+  const fields = fieldsOf(texts)
   return {
     ...present({
-      transport: choice(settings, 'transport', transportNames, texts),
+      transport: fields.choice(settings, 'transport', TRANSPORTS),
       localAddress: settings.localAddress === '' ? undefined : settings.localAddress,
-      localPort: number('localPort'),
-      frame: choice(settings, 'frame', frameNames, texts),
-      code: choice(settings, 'code', ['binary', 'ascii'], texts),
-      asciiXy: choice(settings, 'asciiXy', ['octal', 'hexadecimal'], texts),
-      asciiZr: choice(settings, 'asciiZr', ['decimal', 'hexadecimal'], texts),
-      asciiWordOrder: choice(settings, 'asciiWordOrder', ['low-first', 'high-first'], texts),
-      xyRadix: xyRadixOf(settings, texts),
-      wRadix: wRadixOf(settings, texts),
-      monitoringTimer: number('monitoringTimer'),
-      timeout: number('timeout'),
-      probe: choice(settings, 'probe', probeKinds, texts),
-      inFlight: number('inFlight'),
-      queueLimit: number('queueLimit'),
-      gap: number('gap'),
+      localPort: fields.wholeNumber(settings, 'localPort'),
+      frame: fields.choice(settings, 'frame', ethernetFrameNames),
+      code: fields.choice(settings, 'code', ['binary', 'ascii']),
+      monitoringTimer: fields.wholeNumber(settings, 'monitoringTimer'),
+      inFlight: fields.wholeNumber(settings, 'inFlight'),
     }),
-    profile: profileOf(settings, texts),
-    route: routeOf(settings, texts),
-    format: formatOf(settings, texts),
-    reconnect: reconnectOf(settings, texts),
+    ...common(settings, fields),
+    profile: profileOf(settings, fields, false),
+    route: present({
+      network: fields.wholeNumber(settings, 'network'),
+      station: fields.wholeNumber(settings, 'station'),
+      moduleIo: fields.hexNumber(settings, 'moduleIo'),
+      multidrop: fields.wholeNumber(settings, 'multidrop'),
+      extensionStation: fields.wholeNumber(settings, 'extensionStation'),
+    }),
+  }
+}
+
+/** The same of a PLC on a serial line: the line says the rest. */
+export function speechOnLine(settings: ConnectionSettings, texts: Texts): MelsecOptions {
+  const fields = fieldsOf(texts)
+  const wait = fields.wholeNumber(settings, 'messageWait')
+  return {
+    // It is a part of 1C frames; as delivered it says nothing.
+    ...(wait === undefined || wait === 0 ? {} : { messageWait: wait }),
+    ...common(settings, fields),
+    profile: profileOf(settings, fields, true),
+    route: routeOnLine(settings, fields),
+  }
+}
+
+function routeOnLine(settings: ConnectionSettings, fields: Fields<TextField>): RouteOptions {
+  const number = (field: TextField, read: 'wholeNumber' | 'hexNumber') =>
+    settings[field].toUpperCase() === OWN_ROUTE[field] ? undefined : fields[read](settings, field)
+  return present({
+    station: fields.wholeNumber(settings, 'lineStation'),
+    network: number('network', 'wholeNumber'),
+    pc: number('pc', 'wholeNumber'),
+    moduleIo: number('moduleIo', 'hexNumber'),
+    multidrop: number('multidrop', 'wholeNumber'),
+    selfStation: number('selfStation', 'wholeNumber'),
+  })
+}
+
+/** What does not depend on the way to the PLC. */
+function common(settings: ConnectionSettings, fields: Fields<TextField>): MelsecOptions {
+  return {
+    ...present({
+      asciiXy: fields.choice(settings, 'asciiXy', ['octal', 'hexadecimal']),
+      asciiZr: fields.choice(settings, 'asciiZr', ['decimal', 'hexadecimal']),
+      asciiWordOrder: fields.choice(settings, 'asciiWordOrder', ['low-first', 'high-first']),
+      xyRadix: fields.numberOf(settings, 'xyRadix', [8, 16]),
+      wRadix: fields.numberOf(settings, 'wRadix', [10, 16]),
+      timeout: fields.wholeNumber(settings, 'timeout'),
+      probe: fields.choice(settings, 'probe', probeKinds),
+      queueLimit: fields.wholeNumber(settings, 'queueLimit'),
+      gap: fields.wholeNumber(settings, 'gap'),
+    }),
+    format: formatOf(settings, fields),
+    reconnect: reconnectOf(settings, fields),
     allowWrites: settings.allowWrites,
     allowControl: settings.allowControl,
   }
 }
 
-function profileOf(settings: ConnectionSettings, texts: Texts): ProfileId {
+/** @param onLine whether it must be one of a serial line, or one of an Ethernet port */
+function profileOf(settings: ConnectionSettings, fields: Fields<TextField>, onLine: boolean): ProfileId {
   // Not defaulted: with the wrong series X10 is another input, and the PLC does not say so.
-  return choice(settings, 'profile', profileIds, texts) ?? missing('profile', texts)
-}
-
-function routeOf(settings: ConnectionSettings, texts: Texts): Partial<Route> {
-  return present({
-    network: wholeNumber(settings, 'network', texts),
-    station: wholeNumber(settings, 'station', texts),
-    moduleIo: hexNumber(settings, 'moduleIo', texts),
-    multidrop: wholeNumber(settings, 'multidrop', texts),
-    extensionStation: wholeNumber(settings, 'extensionStation', texts),
-  })
+  const profile = fields.choice(settings, 'profile', profileIds) ?? fields.missing('profile')
+  if ((profiles[profile].serial !== undefined) === onLine) return profile
+  throw fields.bad('profile', onLine ? 'error.notOnLine' : 'error.onlyOnLine', { series: profiles[profile].title })
 }
 
 function reconnectOf(
   settings: ConnectionSettings,
-  texts: Texts,
+  fields: Fields<TextField>,
 ): { readonly first?: number; readonly longest: number } {
   return {
-    ...present({ first: wholeNumber(settings, 'reconnectFirst', texts) }),
-    longest: wholeNumber(settings, 'reconnectLongest', texts) ?? LONGEST_PAUSE,
+    ...present({ first: fields.wholeNumber(settings, 'reconnectFirst') }),
+    longest: fields.wholeNumber(settings, 'reconnectLongest') ?? LONGEST_PAUSE,
   }
 }
 
-function formatOf(settings: ConnectionSettings, texts: Texts): ValueFormat {
+function formatOf(settings: ConnectionSettings, fields: Fields<TextField>): ValueFormat {
   return present({
-    encoding: choice(settings, 'encoding', encodings, texts),
-    wordOrder: choice(settings, 'wordOrder', ['low-first', 'high-first'], texts),
+    encoding: fields.choice(settings, 'encoding', encodings),
+    wordOrder: fields.choice(settings, 'wordOrder', ['low-first', 'high-first']),
   })
-}
-
-function xyRadixOf(settings: ConnectionSettings, texts: Texts): 8 | 16 | undefined {
-  const text = choice(settings, 'xyRadix', ['8', '16'], texts)
-  return text === undefined ? undefined : text === '8' ? 8 : 16
-}
-
-function wRadixOf(settings: ConnectionSettings, texts: Texts): 10 | 16 | undefined {
-  const text = choice(settings, 'wRadix', ['10', '16'], texts)
-  return text === undefined ? undefined : text === '10' ? 10 : 16
-}
-
-function choice<T extends string>(
-  settings: ConnectionSettings,
-  field: TextField,
-  choices: readonly T[],
-  texts: Texts,
-): T | undefined {
-  const text = settings[field]
-  const chosen = choices.find((candidate) => candidate === text)
-  if (chosen !== undefined || text === '') return chosen
-  throw bad(texts, field, 'error.notChoice', { value: text, choices: choices.join(', ') })
-}
-
-function wholeNumber(settings: ConnectionSettings, field: TextField, texts: Texts): number | undefined {
-  const text = settings[field]
-  if (text === '') return undefined
-  if (/^[0-9]{1,9}$/.test(text)) return Number(text)
-  throw bad(texts, field, 'error.notNumber', { value: text })
-}
-
-function hexNumber(settings: ConnectionSettings, field: TextField, texts: Texts): number | undefined {
-  const text = settings[field].replace(/h$/i, '')
-  if (text === '') return undefined
-  if (/^[0-9a-f]{1,4}$/i.test(text)) return Number.parseInt(text, 16)
-  throw bad(texts, field, 'error.notHex', { value: text })
-}
-
-function missing(field: keyof ConnectionSettings, texts: Texts): never {
-  throw bad(texts, field, 'error.missing')
-}
-
-type Present<T> = { [K in keyof T]?: Exclude<T[K], undefined> }
-
-/** Without the fields that are undefined: an option that is there must have a value. */
-function present<T extends object>(fields: T): Present<T> {
-  return Object.fromEntries(Object.entries(fields).filter(([, value]) => value !== undefined)) as Present<T>
 }

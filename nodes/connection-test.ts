@@ -1,13 +1,14 @@
 /**
  * `POST /melsec-jw/connection/test`: connects, asks the CPU who it is and measures the round trip.
- * `POST /melsec-jw/connection/find`: tries which frames and data codes are answered.
+ * `POST /melsec-jw/connection/find`: tries which frames and data codes are answered; on a serial line, which stations answer.
  *
- * Body: `{ id, settings }`: the connection node and its settings as they stand in the dialog, also before they are
- * deployed. So the host is whatever the user typed: whoever may call this may deploy flows that connect anywhere, and
+ * Body: `{ id, settings, line? }`: the connection node and its settings as they stand in the dialog, also before they are
+ * deployed, and those of its serial line. So the host is whatever the user typed: whoever may call this may deploy flows that connect anywhere, and
  * needs the permission `melsec-jw.write`. One test at a time, and none without an end.
  */
 import type { NodeAPI } from 'node-red'
 import {
+  type CallOptions,
   ConnectionError,
   createMelsecClient,
   EndCodeError,
@@ -21,12 +22,15 @@ import {
 } from '../src/index'
 import { endpoint, objectIn, type Reply } from './admin'
 import { withoutCauses } from './causes'
-import type { PlcConnection } from './connection'
+import { type PlcConnection, peerOf } from './connection'
 import { type AnsweringLine, answeringLines } from './connection-find'
-import { optionsOf, resolverOf, settingsOf } from './connection-settings'
+import { isOnLine, LINE_PROFILE, optionsOf, settingsOf } from './connection-settings'
 import { detailsOf, type FailureDetails } from './failure'
 import { type FailureCode, isBadAnswer } from './failure-code'
+import { resolverOf } from './fields'
+import { lineToTest } from './line-test'
 import type { StoredSettings } from './migration'
+import { type AnsweringStation, answeringStations, profileOnLine } from './station-find'
 import type { Texts } from './texts'
 
 /** ms: how long connecting may take; a PLC that is off answers nothing at all. */
@@ -34,6 +38,10 @@ const CONNECT = 8_000
 /** ms for each question. */
 const QUESTION = 3_000
 const ROUNDS = 10
+/** ms: longest for a search, which asks up to 32 stations of a line that is in use. */
+const SEARCH = 60_000
+/** ms for all of them: on a slow line a few must do. */
+const ENOUGH = 5_000
 
 /** The port is there, and another way to speak to it may be answered. */
 const MAY_FIND: readonly FailureCode[] = ['SILENT', 'TIMEOUT', 'DISCONNECTED', 'ENTRY_BUSY', 'OFFLINE']
@@ -61,7 +69,8 @@ export function connectionTest(RED: NodeAPI, texts: Texts, deployed: (id: string
   endpoint(RED, '/melsec-jw/connection/test', 'melsec-jw.write', texts, (body, over) =>
     alone(() => outcome(RED, texts, body, over, deployed)),
   )
-  endpoint(RED, '/melsec-jw/connection/find', 'melsec-jw.write', texts, (body, over) =>
+  const finding = { permission: 'melsec-jw.write', patience: SEARCH }
+  endpoint(RED, '/melsec-jw/connection/find', finding, texts, (body, over) =>
     alone(() => found(RED, texts, body, over, deployed)),
   )
 
@@ -86,16 +95,17 @@ async function outcome(
   const id = typeof body.id === 'string' ? body.id : ''
   const connection = deployed(id)
   let peer = ''
-  let port = 0
+  let port: number | undefined
   try {
-    const options = optionsIn(RED, id, objectIn(body, 'settings'), texts)
+    const options = optionsIn(RED, id, body, texts)
     peer = peerOf(options)
     port = options.port
+    const isLine = options.line !== undefined
     const running = connected(connection, options)
-    if (running !== undefined) return await ask(running, over)
+    if (running !== undefined) return await ask(running, over, isLine)
     const client = createMelsecClient({ ...options, connectTimeout: CONNECT })
     try {
-      return await ask(client, over)
+      return await ask(client, over, isLine)
     } finally {
       await client.close()
     }
@@ -104,9 +114,11 @@ async function outcome(
     const { code, causes = [] } = details
     const strange = isBadAnswer(code) || badAnswerBehind(error)
     const further =
-      strange && causes.length === 0 ? [texts('test.otherService', { port }), texts('test.otherLine')] : causes
+      strange && causes.length === 0 && port !== undefined
+        ? [texts('test.otherService', { port }), texts('test.otherLine')]
+        : causes
     const ours = isUp(connection) && TURNED_AWAY.includes(code)
-    const message = shortMessage(details, peer, texts)
+    const message = shortMessage(details, peer, texts, port === undefined)
     return {
       ok: false,
       ...details,
@@ -118,8 +130,14 @@ async function outcome(
 }
 
 /** With its causes a message is long, and they are listed below it. */
-function shortMessage({ code, message, causes = [] }: FailureDetails, peer: string, texts: Texts): string {
-  return code === 'SILENT' && causes.length > 0 ? texts('test.silent', { peer }) : withoutCauses(message, causes, texts)
+function shortMessage(
+  { code, message, causes = [] }: FailureDetails,
+  peer: string,
+  texts: Texts,
+  isLine: boolean,
+): string {
+  if (code !== 'SILENT' || causes.length === 0) return withoutCauses(message, causes, texts)
+  return texts(isLine ? 'test.silentLine' : 'test.silent', { peer })
 }
 
 /** A connection that ended because of what came over it. */
@@ -133,9 +151,10 @@ function badAnswerBehind(error: unknown): boolean {
 /** What `POST /melsec-jw/connection/find` answers. */
 type Found =
   | { readonly ok: true; readonly lines: readonly AnsweringLine[] }
+  | { readonly ok: true; readonly stations: readonly AnsweringStation[] }
   | { readonly ok: false; readonly message: string; readonly causes: readonly string[] }
 
-/** Which frames and data codes the PLC answers to. */
+/** Which frames and data codes the PLC answers to, or which stations of a line answer. */
 async function found(
   RED: NodeAPI,
   texts: Texts,
@@ -146,26 +165,41 @@ async function found(
   const id = typeof body.id === 'string' ? body.id : ''
   let peer = ''
   try {
-    const options = optionsIn(RED, id, objectIn(body, 'settings'), texts)
+    const options = optionsIn(RED, id, body, texts, true)
     peer = peerOf(options)
+    if (options.line !== undefined) {
+      const stations = await answeringStations(options, over)
+      if (stations.length > 0) return { ok: true, stations }
+      return { ok: false, message: texts('test.foundNoStation', { peer: options.line.description }), causes: [] }
+    }
     const lines = await answeringLines(options, over)
     if (lines.length > 0) return { ok: true, lines }
     const causes = isUp(deployed(id)) ? [texts('error.entryHeld')] : []
     return { ok: false, message: texts('test.foundNone', { peer }), causes }
   } catch (error) {
     const details = detailsOf(error, texts)
-    return { ok: false, message: shortMessage(details, peer, texts), causes: details.causes ?? [] }
+    return { ok: false, message: shortMessage(details, peer, texts, false), causes: details.causes ?? [] }
   }
 }
 
-function peerOf({ transport = 'tcp', host, port }: MelsecClientOptions): string {
-  return `${transport} ${host}:${port}`
-}
-
-function optionsIn(RED: NodeAPI, id: string, given: StoredSettings, texts: Texts): ReturnType<typeof optionsOf> {
-  const settings = settingsOf(given, { texts, resolve: resolverOf(RED, RED.nodes.getNode(id), texts) })
+/** @param searching many stations of a line are asked that are not there */
+function optionsIn(
+  RED: NodeAPI,
+  id: string,
+  body: StoredSettings,
+  texts: Texts,
+  searching = false,
+): ReturnType<typeof optionsOf> {
+  const settings = settingsOf(objectIn(body, 'settings'), {
+    texts,
+    resolve: resolverOf(RED, RED.nodes.getNode(id), texts),
+  })
   // The test is what finds the series out, so it does not need it.
-  return optionsOf(settings.profile === '' ? { ...settings, profile: 'generic' } : settings, texts)
+  const usual = isOnLine(settings, texts) ? LINE_PROFILE : 'generic'
+  const known = settings.profile === '' ? { ...settings, profile: usual } : settings
+  return optionsOf(known, texts, (line) =>
+    lineToTest(RED, { id: line, given: objectIn(body, 'line'), searching }, texts),
+  )
 }
 
 /** The deployed connection has an entry of its PLC. */
@@ -176,10 +210,11 @@ function isUp(connection: PlcConnection | undefined): boolean {
 /** The running client, when it speaks as is to be tested: the PLC may have no second entry for a test. */
 function connected(connection: PlcConnection | undefined, options: MelsecClientOptions): MelsecClient | undefined {
   if (connection?.options === undefined || connection.current?.state.name !== 'connected') return undefined
-  return wire(connection.options) === wire(options) ? connection.current : undefined
+  const isSame = connection.options.line === options.line && wire(connection.options) === wire(options)
+  return isSame ? connection.current : undefined
 }
 
-/** What the PLC sees of a client's options. The dialog does not give the password away, so it is not compared. */
+/** What the PLC sees of a client's options, but for its line. The dialog does not give the password away, so it is not compared. */
 function wire({
   allowWrites,
   allowControl,
@@ -188,30 +223,42 @@ function wire({
   password,
   reconnect,
   queueLimit,
+  line,
   ...seen
 }: MelsecClientOptions): string {
   return JSON.stringify(seen)
 }
 
-async function ask(client: MelsecClient, signal: AbortSignal): Promise<TestResult> {
-  await client.connect({ timeout: CONNECT, signal })
-  const call = { timeout: QUESTION, signal }
-  const identity = await unlessRefused(() => client.identify(call))
+/** @param isLine what the client was told of its line says how long a question takes there */
+async function ask(client: MelsecClient, signal: AbortSignal, isLine: boolean): Promise<TestResult> {
+  const call = isLine ? { signal } : { timeout: QUESTION, signal }
+  await client.connect(isLine ? call : { timeout: CONNECT, signal })
+  const identity = await unlessRefused(() => identified(client, call, isLine))
   const times = await rounds(client, call)
   return {
     ok: true,
     ...('refusal' in identity ? { unidentified: identity.refusal } : identity.value),
     roundTrip: {
       min: Math.min(...times),
-      mean: times.reduce((sum, time) => sum + time, 0) / times.length,
+      mean: sumOf(times) / times.length,
       max: Math.max(...times),
       count: times.length,
     },
   }
 }
 
+async function identified(client: MelsecClient, call: CallOptions, isLine: boolean): Promise<Identity> {
+  const { profile, ...identity } = await client.identify(call)
+  const own = isLine ? profileOnLine(profile) : profile
+  return own === undefined ? identity : { ...identity, profile: own }
+}
+
+function sumOf(times: readonly number[]): number {
+  return times.reduce((sum, time) => sum + time, 0)
+}
+
 /** Self Test does nothing but send back; a PLC that lacks it is read instead. */
-async function rounds(client: MelsecClient, call: { timeout: number; signal: AbortSignal }): Promise<number[]> {
+async function rounds(client: MelsecClient, call: CallOptions): Promise<number[]> {
   const times: number[] = []
   let measure = async () => (await client.selfTest(undefined, call)).roundTrip
   const first = await unlessRefused(measure)
@@ -223,7 +270,7 @@ async function rounds(client: MelsecClient, call: { timeout: number; signal: Abo
   } else {
     times.push(first.value)
   }
-  while (times.length < ROUNDS) times.push(await measure())
+  while (times.length === 0 || (times.length < ROUNDS && sumOf(times) < ENOUGH)) times.push(await measure())
   return times
 }
 

@@ -146,8 +146,13 @@ export class PlcConnection {
   }
 
   #peer(): string {
-    return `${this.options?.transport ?? 'tcp'} ${this.options?.host}:${this.options?.port}`
+    return this.options === undefined ? '' : peerOf(this.options)
   }
+}
+
+/** Where the PLC is, for people. */
+export function peerOf({ transport = 'tcp', host, port, line, route }: MelsecClientOptions): string {
+  return line === undefined ? `${transport} ${host}:${port}` : `${line.description}, station ${route?.station ?? 0}`
 }
 
 /** Whatever the client has against the settings, it is they that are wrong. */

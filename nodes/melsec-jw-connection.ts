@@ -1,22 +1,27 @@
 /** Node `melsec-jw-connection` (configuration): how to reach a PLC; its users share one client. */
 import type { Node, NodeAPI, NodeDef } from 'node-red'
 import { typeNames } from '../src/entry/address'
-import { type ProfileId, profileIds, profiles } from '../src/index'
+import { type MelsecLine, type ProfileId, profileIds, profiles } from '../src/index'
 import { addressCheck } from './address-check'
 import { connectionOf, PlcConnection, setConnection } from './connection'
-import { LONGEST_PAUSE, optionsOf, type Resolve, resolverOf, settingsOf } from './connection-settings'
+import { LONGEST_PAUSE, optionsOf, settingsOf } from './connection-settings'
 import { connectionTest } from './connection-test'
+import { refusal } from './failure'
+import { type Resolve, resolverOf } from './fields'
+import { lineOf } from './line'
 import type { Migration } from './migration'
 import { readSettings } from './node'
 import { sharedTexts, type Texts } from './texts'
 
-const migrations: readonly Migration[] = []
+// The way to the PLC: what is older knows Ethernet only.
+const migrations: readonly Migration[] = [{ version: 2, up: (settings) => ({ way: 'ethernet', ...settings }) }]
 
 function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): PlcConnection {
   const connection = PlcConnection.of(node, texts, () => {
     const current = readSettings({ ...stored }, migrations, texts)
     const resolve = resolverOf(RED, node, texts)
-    return { ...optionsOf(settingsOf(current, { texts, resolve }), texts), ...secretsOf(node, resolve) }
+    const options = optionsOf(settingsOf(current, { texts, resolve }), texts, (id) => deployedLine(RED, id, texts))
+    return { ...options, ...secretsOf(node, resolve) }
   })
   if (connection.failure !== undefined) node.error(connection.failure)
   node.on('close', (done: () => void) => {
@@ -26,6 +31,13 @@ function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): PlcCo
     })
   })
   return connection
+}
+
+/** @throws NodeFailure NOT_CONFIGURED where there is none, or its settings are wrong */
+function deployedLine(RED: NodeAPI, id: string, texts: Texts): MelsecLine {
+  const line = lineOf(RED.nodes.getNode(id))
+  if (line === undefined) throw refusal('NOT_CONFIGURED', texts('error.noLine'), { field: 'line' })
+  return line.line
 }
 
 /** What Node-RED keeps apart from the flow: the remote password. Without one the PLC has none. */
@@ -46,8 +58,10 @@ const editorSettings = {
 
 /** What a series makes of settings that are left empty. */
 function factsOf(id: ProfileId): object {
-  const { frame, xyRadix, wRadix, asciiXy, monitoringTimer } = profiles[id]
-  return { frame, xyRadix, wRadix, asciiXy, monitoringTimer: monitoringTimer.default }
+  const { frame, frames, xyRadix, wRadix, asciiXy, monitoringTimer, serial } = profiles[id]
+  const facts = { frame, xyRadix, wRadix, asciiXy, monitoringTimer: monitoringTimer.default }
+  if (serial === undefined) return facts
+  return { ...facts, serial: { frames, reach: serial.reach, lastStation: serial.lastStation } }
 }
 
 export = function register(RED: NodeAPI): void {

@@ -1,8 +1,8 @@
 /** Node `melsec-jw-file`: files on the drives of the CPU. */
 import type { NodeAPI, NodeMessageInFlow } from 'node-red'
 import { encodings, type FilePath, type MelsecClient, textOfBytes } from '../src/index'
-import { resolverOf } from './connection-settings'
 import { refusal } from './failure'
+import { resolverOf } from './fields'
 import { contentOf, fileDateOf, filePathOf } from './file-given'
 import { fileList } from './file-list'
 import { type TransferOptions, Transfers } from './file-transfers'

@@ -2,14 +2,19 @@
 import type { NodeAPI } from 'node-red'
 import { type Language, languages } from '../src/index'
 
-/** Catalogue of the texts that every node shares; Node-RED names it after package and node. */
-const SHARED = '@melsec-jw/plc/melsec-jw-connection'
+/** The node whose catalogue has the texts that every node shares. */
+const SHARED = 'melsec-jw-connection'
 
-/** A text of the shared catalogue in the language of the runtime. */
+/** A text of a catalogue in the language of the runtime. */
 export type Texts = (key: string, values?: Readonly<Record<string, string | number>>) => string
 
 export function sharedTexts(RED: NodeAPI): Texts {
-  return (key, values) => RED._(`${SHARED}:${key}`, { ...values })
+  return textsOf(RED, SHARED)
+}
+
+/** The texts of one node; Node-RED names catalogues after package and node. */
+export function textsOf(RED: NodeAPI, node: string): Texts {
+  return (key, values) => RED._(`@melsec-jw/plc/${node}:${key}`, { ...values })
 }
 
 /** Language of the runtime, as far as this package has texts in it. */

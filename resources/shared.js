@@ -37,8 +37,35 @@
     return /^[0-9]+$/.test(value) && Number(value) >= min && Number(value) <= max
   }
 
+  /** Whether a connection goes over a serial line: as chosen in its dialog while that is open, else as it is stored. */
+  function isOnLine(connection) {
+    const open = $('.melsec-jw-form').filter(function () {
+      return $(this).data('connection') === connection.id && connection.id !== undefined
+    })
+    return (open.length > 0 ? open.find('#node-config-input-way').val() : connection.way) === 'serial'
+  }
+
+  function isUdp(connection) {
+    return !isOnLine(connection) && connection.transport === 'udp'
+  }
+
+  /** Whether a connection by this way can have the series. */
+  function isSeries(id, onLine) {
+    const facts = RED.settings.melsecJwConnectionProfiles?.[id]
+    return Boolean(id) && (facts === undefined || (facts.serial !== undefined) === onLine)
+  }
+
+  /** Where the PLC is, where no name says it. */
+  function placeOf(connection) {
+    if (connection.way !== 'serial') return connection.host ? `${connection.host}:${connection.port}` : ''
+    const line = RED.nodes.node(connection.line)
+    const name = line ? line.name || line.path || (line.host ? `${line.host}:${line.port}` : '') : ''
+    return name && text('line.place', { line: name, station: connection.lineStation || 0 })
+  }
+
   /** The frame a connection speaks: its own, or the usual one of its series. Without a series it is 3E. */
   function frameOf(connection) {
+    if (connection.way === 'serial') return RED.nodes.node(connection.line)?.frame || '3C'
     const facts = RED.settings.melsecJwConnectionProfiles?.[connection.profile] || {}
     return connection.frame || facts.frame || '3E'
   }
@@ -54,7 +81,10 @@
     SPEECH.forEach((field) => {
       if (connection?.[field]) speech[field] = connection[field]
     })
-    return speech
+    if (connection?.way !== 'serial') return speech
+    const line = RED.nodes.node(connection.line) || {}
+    const { frame: _frame, code: _code, ...common } = speech
+    return { ...common, way: 'serial', lineFrame: line.frame, messageFormat: line.messageFormat }
   }
 
   /** Does something a moment after each change; `run` gets a function that says whether its answer is still wanted. */
@@ -89,6 +119,10 @@
   window.melsecJw = Object.assign(window.melsecJw || {}, {
     text,
     isNumber,
+    isOnLine,
+    isUdp,
+    isSeries,
+    placeOf,
     post,
     commandTitle,
     speechOf,

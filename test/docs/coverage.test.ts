@@ -182,9 +182,10 @@ describe('lists', () => {
   test.each([
     ['docs/client.md', '`frame`', library.frameNames],
     ['docs/cli.md', '`--frame <name>`', library.frameNames],
-    ['docs/nodes/connection.md', '`frame`', library.frameNames],
+    ['docs/nodes/connection.md', '`frame`', library.ethernetFrameNames],
+    ['docs/nodes/line.md', '`frame`', library.serialFrameNames],
     ['docs/client.md', '`transport`', library.transportNames],
-    ['docs/nodes/connection.md', '`transport`', library.transportNames],
+    ['docs/nodes/connection.md', '`transport`', library.transportNames.filter((name) => name !== 'serial')],
     ['docs/client.md', '`probe`', library.probeKinds],
     ['docs/cli.md', '`--probe <name>`', library.probeKinds],
     ['docs/nodes/connection.md', '`probe`', library.probeKinds],

@@ -42,7 +42,8 @@ function open(page: Page, id: string, before: number): Promise<void> {
     ([node, trays]) => {
       const { RED } = globalThis as unknown as Editor
       if (document.querySelectorAll('.red-ui-tray').length > trays) return
-      if (node === 'plc') RED.editor.editConfig('', 'melsec-jw-connection', node)
+      if (node === 'line') RED.editor.editConfig('', 'melsec-jw-line', node)
+      else if (/^plc\d?$/.test(node)) RED.editor.editConfig('', 'melsec-jw-connection', node)
       else RED.editor.edit(RED.nodes.node(node))
     },
     [id, before] as const,

@@ -6,8 +6,8 @@ import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import type { Locator, Page } from 'playwright-core'
 import { devices, typeNames } from '../../src/entry/address'
 import { commands } from '../../src/entry/codec'
-import type { PlcSimulator } from '../../src/entry/simulator'
-import { profileIds } from '../../src/index'
+import type { LineSimulator, PlcSimulator } from '../../src/entry/simulator'
+import { baudRates, profileIds, profiles, serialFrameNames } from '../../src/index'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
@@ -23,15 +23,18 @@ import {
   startPlc,
   writeNode,
 } from './flow'
+import { lineTo, startLine, stationNode } from './line-flow'
 
 const LANGUAGES = ['en-US', 'ja', 'zh-CN', 'zh-TW'] as const
 
 let red: NodeRed
 let plc: PlcSimulator
+let line: LineSimulator
 let browser: HeadlessBrowser
 
 beforeAll(async () => {
   plc = await startPlc()
+  line = await startLine()
   ;[red, browser] = await Promise.all([startNodeRed(), launchBrowser()])
   const row = { name: '', address: 'D112', type: 'REAL', value: '40.5', valueType: 'num' }
   await red.deploy([
@@ -42,6 +45,8 @@ beforeAll(async () => {
     requestNode({ command: 'readWords', message: '{"head":"D100","points":1}', messageType: 'json', x: 200, y: 400 }),
     ondemandNode({ topic: 'batches', x: 200, y: 500 }),
     fileNode({ action: 'read', file: '4:/LINE.CSV', x: 200, y: 600 }),
+    lineTo(line),
+    stationNode(1, { profile: '' }),
   ])
 }, 90_000)
 
@@ -49,6 +54,7 @@ afterAll(async () => {
   await browser.close()
   await red.stop()
   await plc.close()
+  await line.close()
 })
 
 /** With keys, because the palette looks at what is typed when a key is let go. */
@@ -413,6 +419,71 @@ describe('in English', () => {
     expect(await property(page, 'plc', 'code')).toBe(before)
   })
 
+  test('a PLC on a serial line is tested, its series taken over, and another station found', async () => {
+    await edit(page, 'plc1')
+    const result = page.locator('#melsec-jw-test-result')
+    const button = page.getByRole('button', { name: 'Test connection' })
+    expect(await page.locator('#node-config-input-host').isVisible()).toBe(false)
+    await button.click()
+    await result.getByText('The PLC answers').waitFor()
+    await result.getByRole('button', { name: 'Use MELSEC iQ-F, serial (FX5)' }).click()
+    expect(await page.locator('#melsec-jw-stations').textContent()).toBe('0 to 15, as set in the PLC.')
+    await page.locator('#node-config-input-lineStation').fill('7')
+    await button.click()
+    await result.getByText('Possible causes, most likely first:').waitFor()
+    expect(await result.locator('li').allTextContents()).toContainEqual(expect.stringContaining('station number 7'))
+    await picture(page, 'serial silent')
+    await result.getByRole('button', { name: 'Look for stations on the line' }).click()
+    await result.getByRole('button', { name: 'Use station 2 · FX5U' }).click({ timeout: 30_000 })
+    await result.getByText('The PLC answers').waitFor()
+    expect(await page.locator('#node-config-input-lineStation').inputValue()).toBe('2')
+    await close(page, 'ok')
+    expect(await property(page, 'plc1', 'lineStation')).toBe('2')
+    expect(await property(page, 'plc1', 'valid')).toBe(true)
+  }, 60_000)
+
+  test('the way to the PLC shows its own fields, and forgets a series that it cannot have', async () => {
+    await edit(page, 'plc')
+    const shown = async () =>
+      Promise.all(
+        ['host', 'code', 'line', 'lineStation'].map((id) => page.locator(`#node-config-input-${id}`).isVisible()),
+      )
+    const series = page.locator('#node-config-input-profile')
+    expect(await shown()).toEqual([true, true, false, false])
+    await page.locator('#node-config-input-way').selectOption('serial')
+    expect(await shown()).toEqual([false, false, true, true])
+    expect(await series.inputValue()).toBe('')
+    await series.selectOption('q-c24')
+    await page.locator('.red-ui-tray .red-ui-tabs').getByText('Communication', { exact: true }).click()
+    expect(await page.locator('#node-config-input-pc').isVisible()).toBe(true)
+    await picture(page, 'serial route')
+    await close(page, 'cancel')
+    expect(await property(page, 'plc', 'way')).not.toBe('serial')
+  })
+
+  test('the line dialog lists the ports of the machine, and offers what goes with the frame', async () => {
+    await edit(page, 'line')
+    await page.locator('#node-config-input-transport').selectOption('serial')
+    expect(await page.locator('#node-config-input-host').isVisible()).toBe(false)
+    await page.route('**/melsec-jw/line/ports', (route) =>
+      route.fulfill({
+        json: { ok: true, ports: [{ path: '/dev/ttyUSB0', lastingPath: '/dev/serial/by-id/x', manufacturer: 'FTDI' }] },
+      }),
+    )
+    await page.getByRole('button', { name: 'Ports' }).click()
+    await page.getByRole('button', { name: '/dev/ttyUSB0 · FTDI' }).click()
+    expect(await page.locator('#node-config-input-path').inputValue()).toBe('/dev/serial/by-id/x')
+    await page.unroute('**/melsec-jw/line/ports')
+    const format = page.locator('#node-config-input-messageFormat')
+    expect(await format.locator('option[value="5"]').isDisabled()).toBe(true)
+    await page.locator('#node-config-input-frame').selectOption('4C')
+    await format.selectOption('5')
+    expect(await page.locator('#node-config-input-dataLength').inputValue()).toBe('8')
+    await page.locator('#node-config-input-frame').selectOption('3C')
+    expect(await format.inputValue()).toBe('1')
+    await close(page, 'cancel')
+  })
+
   test('the digits of X and Y in ASCII code are asked for where a series has that setting', async () => {
     await edit(page, 'plc')
     await page.locator('#node-config-input-code').selectOption('ascii')
@@ -435,7 +506,14 @@ describe('in English', () => {
       page
         .locator(`${selector} option`)
         .evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value))
-    expect(await values('#node-config-input-profile')).toEqual(['', ...profileIds])
+    const onLine = (id: (typeof profileIds)[number]) => profiles[id].serial !== undefined
+    expect(await values('#node-config-input-profile')).toEqual(['', ...profileIds.filter((id) => !onLine(id))])
+    await page.locator('#node-config-input-way').selectOption('serial')
+    expect(await values('#node-config-input-profile')).toEqual(['', ...profileIds.filter(onLine)])
+    await close(page, 'cancel')
+    await edit(page, 'line')
+    expect(await values('#node-config-input-baudRate')).toEqual(baudRates.map(String))
+    expect((await values('#node-config-input-frame')).sort()).toEqual([...serialFrameNames])
     await close(page, 'cancel')
     await edit(page, 'read')
     expect(await values('#melsec-jw-items li:first-child .melsec-jw-type')).toEqual(['', ...typeNames])
@@ -456,6 +534,7 @@ describe('in English', () => {
       ['file', 'Files on the drives of the CPU'],
       ['ondemand', 'Nothing is answered'],
       ['connection', 'How to reach a Mitsubishi MELSEC PLC'],
+      ['line', 'Where a serial line is'],
     ]) {
       const help = await page.evaluate((name) => $(`script[data-help-name="melsec-jw-${name}"]`).text(), type)
       expect(help).toContain(told)
@@ -468,12 +547,14 @@ declare const $: (selector: string) => { text(): string }
 
 /** Every dialog, held against missing texts and texts that are too long for it. */
 async function lookThrough(page: Page, language: string): Promise<void> {
-  for (const id of ['read', 'write', 'control', 'request', 'ondemand', 'file', 'plc']) {
+  for (const id of ['read', 'write', 'control', 'request', 'ondemand', 'file', 'plc', 'plc1', 'line']) {
     await edit(page, id)
     const form = page.locator('.red-ui-tray-body .melsec-jw-form').last()
     const text = (await form.innerText()) + (await form.locator('option').allTextContents()).join('\n')
     // A key without a text is shown as itself.
-    expect(text.match(/\b(label|option|note|button|command|status|explain|device|test|tab|unit)\.[\w-]+/g)).toBeNull()
+    expect(
+      text.match(/\b(label|option|note|button|command|status|explain|device|test|tab|unit|line|placeholder)\.[\w-]+/g),
+    ).toBeNull()
     expect(text).not.toContain('undefined')
     const wide = await form.evaluate((element) => element.scrollWidth - element.clientWidth)
     expect({ id, wide }).toEqual({ id, wide: 0 })

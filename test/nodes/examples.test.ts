@@ -1,10 +1,11 @@
 /** Every example flow, deployed against the simulated tank, sends what test/matrix/expectations.json says. */
 import { afterAll, beforeAll, expect, test } from '@jest/globals'
-import { type PlcSimulator, startDemoPlant } from '../../src/entry/simulator'
-import { connectedTo, type Expectation, isOurs, onDemandOf, take } from '../support/examples'
+import { type LineSimulator, type PlcSimulator, startDemoPlant } from '../../src/entry/simulator'
+import { connectedTo, type Expectation, isOnLine, isOurs, onDemandOf, take } from '../support/examples'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
 import { portOf, startPlc } from './flow'
+import { startLine } from './line-flow'
 
 const expectations = JSON.parse(readText('test/matrix/expectations.json')) as Record<string, Expectation>
 const files = filesBelow('examples', '.json').map((path) => path.replace(/^examples\//, ''))
@@ -12,6 +13,7 @@ const flows = files.map((file): [string, FlowNode[]] => [file, JSON.parse(readTe
 
 let red: NodeRed
 let plc: PlcSimulator
+let line: LineSimulator
 
 beforeAll(async () => {
   // What `--module` and `--label` of the expectations' `simulate` make.
@@ -24,12 +26,16 @@ beforeAll(async () => {
     },
   })
   startDemoPlant(plc)
+  // As `--stations 1,2 --message-format 4 --plant`.
+  line = await startLine()
+  for (const station of line.stations.values()) startDemoPlant(station)
   red = await startNodeRed()
 }, 60_000)
 
 afterAll(async () => {
   await red.stop()
   await plc.close()
+  await line.close()
 })
 
 test('every example has expectations', () => {
@@ -48,7 +54,9 @@ test.each(flows)('%s works', async (file, flow) => {
   const expectation = expectations[file] ?? { steps: [] }
   const words = onDemandOf(expectation)
   red.forget()
-  await red.deploy(connectedTo(flow, Number(portOf(plc)), expectation.connection))
+  await red.deploy(
+    connectedTo(flow, isOnLine(flow) ? (line.tcp?.port ?? 0) : Number(portOf(plc)), expectation.connection),
+  )
   const sending = words && setInterval(() => plc.sendOnDemand(words), 100)
   try {
     for (const step of expectation.steps) await take(red, step)

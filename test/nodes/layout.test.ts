@@ -6,6 +6,7 @@ import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support
 import { type NodeRed, startNodeRed } from '../support/node-red'
 import { close, edit, picture } from './dialog'
 import { connectionTo, controlNode, fileNode, ondemandNode, readNode, requestNode, startPlc, writeNode } from './flow'
+import { lineNode, stationNode } from './line-flow'
 
 /** The smallest screen that an editor is used on. */
 const SMALL = { width: 1024, height: 768 }
@@ -34,6 +35,8 @@ beforeAll(async () => {
     requestNode({ command: 'readWords', message: '{"head":"D100","points":1}', messageType: 'json', x: 200, y: 400 }),
     ondemandNode({ topic: 'batches', x: 200, y: 500 }),
     fileNode({ action: 'read', file: '4:/LINE.CSV', x: 200, y: 600 }),
+    lineNode({ path: '/dev/serial/by-id/usb-FTDI_FT232R_USB_UART_A10KZ7QX-if00-port0' }),
+    stationNode(1, { profile: 'q-c24' }),
   ])
 }, 90_000)
 
@@ -108,6 +111,21 @@ describe.each(['en-US', 'ja', 'zh-CN'])('at 1024 pixels in %s', (locale) => {
       await picture(page, `${locale} small connection ${tab}`)
       expect(await beside(page)).toEqual({ fields: expect.any(Number), beside: [] })
       if (tab === 0) expect(await page.locator('#node-config-input-port').isVisible()).toBe(true)
+    }
+    await close(page, 'cancel')
+  })
+
+  test.each([
+    ['a connection on a serial line', 'plc1', 'melsec-jw-tabs', 3],
+    ['the line', 'line', 'melsec-jw-line-tabs', 2],
+  ])('no field of the dialog of %s lies beside its tray, on any of its pages', async (_what, id, tabs, pages) => {
+    await edit(page, id)
+    for (let tab = 0; tab < pages; tab++) {
+      await page.locator(`#${tabs} a`).nth(tab).click()
+      await picture(page, `${locale} small ${id} ${tab}`)
+      const found = await beside(page)
+      expect(found).toEqual({ fields: expect.any(Number), beside: [] })
+      expect(found.fields).toBeGreaterThan(8)
     }
     await close(page, 'cancel')
   })

@@ -91,8 +91,17 @@ describe('for a user who may only look', () => {
     const browse = { connection: 'plc', directory: '4:/' }
     expect((await red.http('POST', 'melsec-jw/file/list', browse)).status).toBe(401)
     expect(plc.statistics.connections).toBe(before)
+    // What ports there are may be seen, as everything may that asks no PLC.
+    expect((await red.http('POST', 'melsec-jw/line/ports', {})).status).toBe(200)
+    expect((await red.http('POST', 'melsec-jw/connection/find', { settings })).status).toBe(401)
   })
 })
+
+test('who may see nothing does not see the ports of the machine', async () => {
+  const red = await startNodeRed({ settings: { adminAuth: { type: 'credentials', users: [] } } })
+  expect((await red.http('POST', 'melsec-jw/line/ports', {})).status).toBe(401)
+  await red.stop()
+}, 60_000)
 
 describe.each([...languages, 'de'])('in %s', (language) => {
   test('a status node gets readable texts, the code and the state of the connection', async () => {

@@ -1,6 +1,6 @@
 /** The parts of the nodes that need no Node-RED: stored settings, values, and what became of a write. */
 import { describe, expect, test } from '@jest/globals'
-import { optionsOf, settingsOf } from '../../nodes/connection-settings'
+import { networkOptionsOf, optionsOf, settingsOf } from '../../nodes/connection-settings'
 import { failureOf, NodeFailure } from '../../nodes/failure'
 import { currentVersion, type Migration, migrated } from '../../nodes/migration'
 import { writeFailure } from '../../nodes/write-result'
@@ -8,9 +8,10 @@ import { entriesByName, isSame, typedNumber } from '../../nodes/write-values'
 import {
   ClosedError,
   createMelsecClient,
+  createMelsecLine,
   EndCodeError,
   encodings,
-  frameNames,
+  ethernetFrameNames,
   probeKinds,
   RequestError,
   TimeoutError,
@@ -52,7 +53,9 @@ describe('migrations', () => {
   })
 
   test.each([
-    ['connection', 1],
+    // With the way to the PLC.
+    ['connection', 2],
+    ['line', 1],
     ['read', 1],
     ['write', 1],
     // With `verify`.
@@ -66,7 +69,7 @@ describe('migrations', () => {
 })
 
 describe('settings of a connection', () => {
-  const read = (given: object) => optionsOf(settingsOf({ ...given }, { texts, resolve }), texts)
+  const read = (given: object) => networkOptionsOf(settingsOf({ ...given }, { texts, resolve }), texts)
 
   test('become options that the client takes: the defaults of the dialog', () => {
     const html = readText('nodes/melsec-jw-connection.html')
@@ -82,8 +85,8 @@ describe('settings of a connection', () => {
   })
 
   test.each([
-    ['frame', ['', ...frameNames]],
-    ['transport', transportNames],
+    ['frame', ['', ...ethernetFrameNames]],
+    ['transport', transportNames.filter((name) => name !== 'serial')],
     ['probe', probeKinds],
     ['encoding', encodings],
   ])('%s: the dialog offers what the client takes', (field, values) => {
@@ -100,6 +103,45 @@ describe('settings of a connection', () => {
     expect(() => createMelsecClient(read({ ...stored, frame: '4E', station: '300' }))).toThrow(
       'station extension frame',
     )
+  })
+
+  test('of a serial line hold what the line has not, and nothing of the other way', () => {
+    const line = createMelsecLine({ host: 'server', port: 4001 })
+    const stored = {
+      way: 'serial',
+      line: 'L',
+      lineStation: '3',
+      profile: 'fx5-serial',
+      host: 'old',
+      transport: 'udp',
+      code: 'ascii',
+    }
+    const own = { network: '0', pc: '255', moduleIo: '3ff', multidrop: '0', selfStation: '0', messageWait: '0' }
+    const onLine = (more: object = {}) =>
+      optionsOf(settingsOf({ ...stored, ...own, ...more }, { texts, resolve }), texts, (id) => {
+        expect(id).toBe('L')
+        return line
+      })
+    expect(onLine()).toEqual({
+      line,
+      profile: 'fx5-serial',
+      route: { station: 3 },
+      format: {},
+      reconnect: { longest: 5000 },
+      allowWrites: false,
+      allowControl: false,
+    })
+    expect(createMelsecClient(onLine()).options.line).toBe(line)
+    const far = { profile: 'q-c24', network: '1', pc: '2', selfStation: '4', messageWait: '70' }
+    expect(onLine(far)).toMatchObject({ route: { station: 3, network: 1, pc: 2, selfStation: 4 }, messageWait: 70 })
+    expect(() => onLine({ profile: 'iq-f' })).toThrow('error.notOnLine')
+    expect(() => onLine({ way: 'radio' })).toThrow('error.notChoice')
+    expect(() => read({ ...stored, way: 'ethernet', port: '1' })).toThrow('error.onlyOnLine')
+  })
+
+  test('of a flow that knew Ethernet only are those of Ethernet', () => {
+    const up = /const migrations[^\n]+up: (.+) \}\]/.exec(readText('nodes/melsec-jw-connection.ts'))?.[1]
+    expect(up).toBe("(settings) => ({ way: 'ethernet', ...settings })")
   })
 
   test('numbers may be numbers or text, and what is empty is left to the client', () => {

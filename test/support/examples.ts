@@ -56,11 +56,18 @@ export function isOurs(node: FlowNode): boolean {
   return node.type.startsWith('melsec-jw-')
 }
 
-/** The flow with its connections led to the simulated PLC. */
+/** The flow with its connections, or its serial line, led to what is simulated. */
 export function connectedTo(flow: readonly FlowNode[], port: number, settings: Expectation['connection']): FlowNode[] {
-  return flow.map((node) =>
-    node.type === 'melsec-jw-connection' ? { ...node, host: '127.0.0.1', port, ...settings } : node,
-  )
+  const place = { host: '127.0.0.1', port }
+  return flow.map((node) => {
+    if (node.type === 'melsec-jw-line') return { ...node, transport: 'tcp', ...place }
+    return node.type === 'melsec-jw-connection' ? { ...node, ...place, ...settings } : node
+  })
+}
+
+/** Whether a simulated serial line is needed instead of a PLC. */
+export function isOnLine(flow: readonly FlowNode[]): boolean {
+  return flow.some(({ type }) => type === 'melsec-jw-line')
 }
 
 export async function take(red: NodeRed, step: Step): Promise<void> {
