@@ -15,6 +15,16 @@ export type {
 export { describe as describeFields } from '../codec/codec'
 export type { Direction, FrameExplanation } from '../codec/explanation'
 export type { Count } from '../codec/field'
+export type { JwAddress, JwExtendedAddress } from '../jw/address'
+export { type JwCommandConfidence, type JwModel, jwModels } from '../jw/commands/command'
+export {
+  describeJwCommand,
+  type JwCommandDescription,
+  type JwCommandName,
+  jwCommandNamed,
+} from '../jw/commands/command-name'
+export { type JwCommand, type JwCommands, jwCommands } from '../jw/commands/commands'
+export { jwAnswerToJson, jwMessageFromJson, jwMessageToJson } from '../jw/commands/message-json'
 export { type ExplainJwOptions, explainJwFrame } from '../jw/explain-frame'
 export {
   type ACompatibleCommandName,

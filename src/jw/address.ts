@@ -11,11 +11,13 @@ export interface JwAddress {
   readonly file: number
   /** Byte address (ADR): basic 0-FFFFH; extended file 0 0-FFFFH, file 1 0-7FFFFFH. */
   readonly address: number
+  /** The form with four bytes of address. */
   readonly extended?: true
 }
 
 /** An address where a command has room for the extended form only. */
 export interface JwExtendedAddress extends JwAddress {
+  /** Always. */
   readonly extended: true
 }
 
@@ -31,8 +33,7 @@ const LAST_EXTENDED = [PAGE - 1, LAST_FILE * PAGE - 1]
 /** Basic: SEG ADRL ADRH. Extended: FF SEG ADRLL ADRLH ADRHL ADRHH. The first byte tells which. */
 export const jwAddress: ValueCodec<JwAddress> = {
   name: 'address',
-  takes:
-    'an object with file (basic 0 to 128; extended 0 or 1), address (of a byte) and, for the extended form, extended: true',
+  takes: 'a byte such as "09012" or "F1:00001234"',
   example: { file: 0, address: 0o4000 },
   write(writer, value) {
     check(value)
@@ -55,7 +56,7 @@ export const jwAddress: ValueCodec<JwAddress> = {
 /** The extended form where nothing else may stand, without its marker FF: SEG ADRLL ADRLH ADRHL ADRHH. */
 export const jwExtendedAddress: ValueCodec<JwExtendedAddress> = {
   name: 'extendedAddress',
-  takes: 'an object with file (0 or 1), address (of a byte) and extended: true',
+  takes: 'a byte such as "09012" or "F1:00001234"',
   example: { file: 0, address: 0o4000, extended: true },
   write(writer, value) {
     if (value.extended !== true) {

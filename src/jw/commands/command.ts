@@ -9,7 +9,7 @@ export type JwModel = (typeof jwModels)[number]
  * What stands behind a command. `printed`: a manual shows such a message byte by byte; `derived`: its layout is printed;
  * `assumed`: the layout leaves something open, see `open`.
  */
-export type Confidence = 'printed' | 'derived' | 'assumed'
+export type JwCommandConfidence = 'printed' | 'derived' | 'assumed'
 
 /** Bytes that must lie within an area: from the address or number `first` on, as many as `size` says or has. */
 export interface Extent {
@@ -21,7 +21,7 @@ export interface Extent {
 
 /** A command of the JW-255CM. The code is the COM byte of the frame. */
 export interface JwDeclaration extends Declaration {
-  readonly confidence: Confidence
+  readonly confidence: JwCommandConfidence
   /** What no source says, and what is done here. */
   readonly open?: string
   /** Who has it; default: all. */

@@ -7,7 +7,10 @@ import { parameterCommands } from './parameter'
 import { secretCommands } from './secret'
 import { systemCommands } from './system'
 
-/** Every command of the JW-255CM. */
+/**
+ * Every command of the JW-255CM.
+ * @experimental The shapes of the declarations may change in any version; the names of commands and what their messages hold do not.
+ */
 export const jwCommands = declare({
   ...parameterCommands,
   ...dataMemoryCommands,
@@ -18,4 +21,10 @@ export const jwCommands = declare({
   ...secretCommands,
 })
 
+/**
+ * Every command of the JW-255CM, by its name.
+ * @experimental The shapes of the declarations may change in any version; the names of commands and what their messages hold do not.
+ */
 export type JwCommands = typeof jwCommands
+/** Any declared command of a Sharp JW. */
+export type JwCommand = JwCommands[keyof JwCommands]

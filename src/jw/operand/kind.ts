@@ -12,7 +12,9 @@ export type JwUnit = 'bit' | 'byte' | 'timer'
 
 /** How the operands of a kind are written. */
 export interface JwOperandKind {
+  /** What it is called. */
   readonly title: string
+  /** What one number is. */
   readonly unit: JwUnit
   /** What stands before the number; of relays and registers nothing. */
   readonly prefix: string
@@ -22,6 +24,7 @@ export interface JwOperandKind {
   readonly shown: number
   /** The last number that can be written. Which exist depends on the PLC. */
   readonly last: number
+  /** Of its notation. */
   readonly example: string
 }
 

@@ -25,6 +25,7 @@ import { type JwKindName, jwKind, jwKindNames, lastByteOf, REGISTER_BLOCK } from
 
 /** An operand as plain data. */
 export interface JwOperand {
+  /** What it is. */
   readonly kind: JwKindName
   /** Its number in its kind; of a register 512 for each block before it, and the byte of its block. */
   readonly number: number

@@ -27,15 +27,30 @@ import { formatJwOperand, type JwOperand } from './notation'
 /** Where an operand lies. */
 export type JwPlace =
   | JwFilePlace
-  | { readonly in: 'system'; readonly address: number; readonly bit?: number }
-  /** A timer, counter or MD, by its number (TMR of the commands). */
-  | { readonly in: 'timer'; readonly number: number }
+  | {
+      /** In the system memory. */
+      readonly in: 'system'
+      /** Of a byte. */
+      readonly address: number
+      /** One bit of it, 0 to 7. */
+      readonly bit?: number
+    }
+  | {
+      /** A timer, counter or MD. */
+      readonly in: 'timer'
+      /** TMR of the commands. */
+      readonly number: number
+    }
 
 /** A byte of a file (SEG, ADR of the commands); `bit`: one bit of it, 0 to 7 (BLOC). */
 export interface JwFilePlace {
+  /** In a file. */
   readonly in: 'file'
+  /** File number. */
   readonly file: number
+  /** Of a byte. */
   readonly address: number
+  /** One bit of it, 0 to 7. */
   readonly bit?: number
 }
 
