@@ -8,15 +8,21 @@ import { build } from './cli/cli'
 import { type HeadlessBrowser, launchBrowser } from './support/browser'
 import { root } from './support/root'
 
-const program = `import { formatItem, parseItem, RequestError, tryParseItem } from '@melsec-jw/plc/address'
+const program = `import { formatItem, formatJwItem, formatJwOperand, parseItem, parseJwOperand, placeOfJw, RequestError, tryParseItem, tryParseJwItem } from '@melsec-jw/plc/address'
 const shown = (text, xyRadix = 16) => {
   const item = tryParseItem(text, { xyRadix })
   return 'error' in item ? item.error.code + ': ' + item.error.message : formatItem(item, { xyRadix }) + ' ' + item.type.name
+}
+const jw = (text) => {
+  const item = tryParseJwItem(text)
+  return 'error' in item ? item.error.code + ': ' + item.error.message : formatJwItem(item) + ' ' + item.type.name
 }
 const thrown = () => { try { parseItem('Q1', { xyRadix: 16 }) } catch (error) { return error instanceof RequestError } }
 document.body.textContent = JSON.stringify({
   here: [typeof globalThis.Buffer, typeof globalThis.process, typeof globalThis.require],
   shown: [shown('d0100:real[2]'), shown('X10..X17', 8), shown('K4M0'), shown('U3\\\\G100.F'), shown('X18', 8), shown('D100:STR,10')],
+  jw: [jw('004033'), jw('09000..09017:int'), jw('f1:1234:real[2]'), jw('コ0403'), jw('TMR012'), jw('09018'), jw('D100')],
+  operand: [formatJwOperand(parseJwOperand('9012'.padStart(5, '0'))), placeOfJw(parseJwOperand('09012.3'))],
   thrown: thrown(),
   plain: new RequestError('BAD_VALUE', 'm').toJSON(),
 })`
@@ -66,6 +72,16 @@ test('addresses are checked in a browser, without anything of Node.js', async ()
       expect.stringMatching(/^BAD_ADDRESS: /),
       expect.stringMatching(/^BAD_\w+: .*STRING\(10\)/),
     ],
+    jw: [
+      '004033 BOOL',
+      '09000:INT[8] INT',
+      'F1:00001234:REAL[2] REAL',
+      'KO0403 BYTE',
+      'TMR0012 UINT',
+      expect.stringMatching(/^BAD_ADDRESS: .*octal/),
+      expect.stringMatching(/^BAD_ADDRESS: .*MELSEC/),
+    ],
+    operand: ['09012', { in: 'file', file: 0, address: 0o4012, bit: 3 }],
     thrown: true,
     plain: { name: 'RequestError', code: 'BAD_VALUE', message: 'm', outcome: 'notSent' },
   })

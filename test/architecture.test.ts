@@ -239,7 +239,6 @@ const FOR_TESTS: readonly string[] = [
   'timerValue',
   'valuesOfBytes',
   'bytesOfValues',
-  'parseJwItem',
   'thresholdOf',
   'hasChanged',
   'rawValueOf',

@@ -53,7 +53,18 @@ test('both are loaded when they are needed', async () => {
 test('addresses alone need none of what sends and receives', async () => {
   const loaded = await loadedBy(`require('./dist/src/entry/address.js')`)
   const rooms = new Set(loaded.map((path) => path.split('/').slice(2, -1).join('/')))
-  expect([...rooms].sort()).toEqual(['', 'basics', 'client/item', 'entry', 'errors', 'melsec/device', 'value'])
+  expect([...rooms].sort()).toEqual([
+    '',
+    'basics',
+    'client/item',
+    'client/jw',
+    'entry',
+    'errors',
+    'jw',
+    'jw/operand',
+    'melsec/device',
+    'value',
+  ])
 })
 
 // `sideEffects` in package.json says so, and bundlers believe it.

@@ -20,10 +20,9 @@ export { type JwCommandConfidence, type JwModel, jwModels } from '../jw/commands
 export {
   describeJwCommand,
   type JwCommandDescription,
-  type JwCommandName,
   jwCommandNamed,
 } from '../jw/commands/command-name'
-export { type JwCommand, type JwCommands, jwCommands } from '../jw/commands/commands'
+export { type JwCommand, type JwCommandName, type JwCommands, jwCommands } from '../jw/commands/commands'
 export { jwAnswerToJson, jwMessageFromJson, jwMessageToJson } from '../jw/commands/message-json'
 export { type ExplainJwOptions, explainJwFrame } from '../jw/explain-frame'
 export {

@@ -36,7 +36,14 @@ export type ByteName = keyof typeof byteTypes
 export type ByteTypeName = ByteName | TypeName
 
 /** A type of bytes as {@link parseByteType} gives it. */
-export type ByteType = ValueType | { readonly name: ByteName; readonly length?: never }
+export type ByteType =
+  | ValueType
+  | {
+      /** Of one byte. */
+      readonly name: ByteName
+      /** Only texts have one. */
+      readonly length?: never
+    }
 
 /** What a value of each type is in JavaScript. */
 export type ByteTypeToValue = TypeToValue & { readonly [N in ByteName]: number }

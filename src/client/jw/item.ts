@@ -22,6 +22,7 @@ import { parseJwOperand } from '../../jw/operand/parse'
 import { type JwPlace, offsetOfJw, placeOfJw, stepsBehind } from '../../jw/operand/place'
 import { type ByteType, bytesOf, formatByteType, parseByteType } from '../../value/byte-type'
 import type { ValueFormat } from '../../value/format'
+import type { RefusedItem } from '../item/item'
 import { otherNotation } from '../item/notation'
 import {
   checkedItem,
@@ -42,6 +43,7 @@ import {
 export interface ParsedJwItem {
   /** As it was given; of an object the text that says the same. Results and messages carry it. */
   readonly text: string
+  /** What it begins at. */
   readonly operand: JwOperand
   /** Where it begins. */
   readonly place: JwPlace
@@ -74,6 +76,16 @@ export function parseJwItem(item: Item, options: JwItemOptions = {}): ParsedJwIt
     const meant = isAlone(given.address) ? undefined : otherNotation(given.address, isAlone)
     if (meant === undefined) throw error
     throw new RequestError(error.code, `${JSON.stringify(given.address.trim())}: ${meant}`, given.address)
+  }
+}
+
+/** As `parseJwItem`, with the error instead of the item: for lists in which one bad item must not spoil the others. */
+export function tryParseJwItem(item: Item, options: JwItemOptions = {}): ParsedJwItem | RefusedItem {
+  try {
+    return parseJwItem(item, options)
+  } catch (error) {
+    if (!(error instanceof RequestError)) throw error
+    return { text: typeof item === 'string' ? item : String(item?.address), error }
   }
 }
 

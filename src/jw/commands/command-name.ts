@@ -3,11 +3,8 @@ import { hex } from '../../basics/hex'
 import { type Effect, exampleOf, type FieldDescription, describe as rowsOf, type Shape } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { JwCommandConfidence, JwDeclaration, JwModel } from './command'
-import { type JwCommand, type JwCommands, jwCommands } from './commands'
+import { type JwCommand, type JwCommandName, jwCommands } from './commands'
 import { jwAddressToJson } from './message-json'
-
-/** Name of a command of a Sharp JW, e.g. `readDataMemory`. */
-export type JwCommandName = keyof JwCommands
 
 const list = Object.values<JwCommand>(jwCommands)
 

@@ -26,5 +26,7 @@ export const jwCommands = declare({
  * @experimental The shapes of the declarations may change in any version; the names of commands and what their messages hold do not.
  */
 export type JwCommands = typeof jwCommands
+/** Name of a command of a Sharp JW, e.g. `readDataMemory`. */
+export type JwCommandName = keyof JwCommands
 /** Any declared command of a Sharp JW. */
 export type JwCommand = JwCommands[keyof JwCommands]

@@ -1,6 +1,6 @@
 // What a handler of a command of a simulated JW is given, and what it gives.
 import type { MessageInput, MessageOf } from '../../codec/codec'
-import type { JwCommands } from '../../jw/commands/commands'
+import type { JwCommandName, JwCommands } from '../../jw/commands/commands'
 import type { RingBuffers, SpecifiedBuffers } from './buffers'
 import type { PlcClock } from './clock'
 import type { JwCpu } from './cpu'
@@ -9,8 +9,7 @@ import type { Secret } from './secret'
 import type { Timers } from './timers'
 import type { OptionUnits, SpecialIo } from './units'
 
-/** Name of a command of the JW-255CM. */
-export type JwCommandName = keyof JwCommands
+export type { JwCommandName }
 
 /** What a handler works on. */
 export interface JwParts {
