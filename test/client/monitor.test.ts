@@ -83,6 +83,15 @@ describe.each(registering)('registered over %s', (text) => {
       expect(seen.take()).toEqual(['executeMonitor'])
     }))
 
+  test('items by name have results by name, and errors that call them so', () =>
+    withLine(text, {}, async ({ plc, client }) => {
+      plc.write('D1', 7)
+      const monitor = client.monitor({ level: 'D1', wrong: 'D1:NONE' })
+      const { level, wrong } = await monitor.read(ample)
+      expect([monitor.mode, brief(level), brief(wrong)]).toEqual(['monitor', 7, 'BAD_TYPE'])
+      expect(wrong.ok ? '' : wrong.error.message).toMatch(/^wrong \(D1:NONE\)/)
+    }))
+
   test('results have the item, the time and their own errors; what is no item keeps its error', () =>
     withLine(text, {}, async ({ plc, client }) => {
       plc.write('D1', 7)

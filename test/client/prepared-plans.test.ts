@@ -43,3 +43,14 @@ test('a list that is read again is not planned again, until so many others have 
     planned.mockRestore()
   }
 })
+
+test('a plan of items by name gives results by name, and errors call them so', async () => {
+  const plan = client.plan({ level: 'D7', wrong: 'D1:NONE', address: 'D9' })
+  const { level, wrong, address } = await plan.run()
+  expect([level, address]).toMatchObject([
+    { item: 'D7', ok: true, value: 7 },
+    { item: 'D9', ok: true, value: 9 },
+  ])
+  expect(wrong.ok ? '' : wrong.error.message).toMatch(/^wrong \(D1:NONE\)/)
+  expect(String(plan)).toBe(String(client.plan(['D7', 'D1:NONE', 'D9'])))
+})

@@ -8,7 +8,7 @@ import type { ExchangeOptions } from '../../melsec/protocol'
 import type { CallOptions } from '../connection/call'
 import type { Files } from '../file/files'
 import type { MelsecItems } from '../item/item-typing'
-import type { ItemResults } from '../item/item-value'
+import type { ItemResults, Items } from '../item/item-value'
 import type { Item } from '../item/parts'
 import type { ItemExplanation } from '../label/explain'
 import type { Labels } from '../label/labels'
@@ -54,8 +54,9 @@ export interface MelsecClient extends PlcClient<ClientEvents, MelsecItems> {
   /**
    * Items that are registered in the PLC once and then read with a request that names none of them (0801, 0802).
    * Where the profile has no monitor commands, Read Random is used instead and `note` says so.
+   * @example const { level } = await plc.monitor({ level: 'D100:REAL', running: 'M10' }).read()
    */
-  monitor<const L extends readonly Item[]>(items: L): Monitor<ItemResults<L>>
+  monitor<const L extends Items>(items: L): Monitor<ItemResults<L>>
   /**
    * Sends any declared command.
    * @example await plc.request(commands.readWords, { head: { device: 'D', number: 100 }, points: 2 })

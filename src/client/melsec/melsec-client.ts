@@ -17,7 +17,7 @@ import { Listeners } from '../connection/listeners'
 import type { Statistics } from '../connection/statistics'
 import { Tracer } from '../connection/trace'
 import { FileAccess, type Files } from '../file/files'
-import { checkRequest, isItem } from '../item/input-checks'
+import { checkRequest, isItem, isList } from '../item/input-checks'
 import type {
   ItemInput,
   ItemInputs,
@@ -34,8 +34,16 @@ import { entriesOf } from '../item/plain-values'
 import { checkAllWritten } from '../item/write-outcome'
 import type { ItemExplanation } from '../label/explain'
 import { type Labels, labelsOf } from '../label/labels'
-import { optionsOfMany, readEachOf, readItems, readValuesOf, writeEachOf, writeItem } from '../plan/item-calls'
-import { type Monitor, Registration } from '../plan/monitor'
+import {
+  optionsOfMany,
+  planItems,
+  readEachOf,
+  readItems,
+  readValuesOf,
+  writeEachOf,
+  writeItem,
+} from '../plan/item-calls'
+import { type Monitor, namedMonitor, Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
 import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
@@ -262,9 +270,9 @@ export class MelsecPlcClient implements MelsecClient {
     return readValuesOf(this.#items, items, options)
   }
 
-  plan<const L extends readonly Item[]>(items: L): ReadPlan<ItemResults<L>>
-  plan(items: readonly Item[]): ReadPlan<unknown> {
-    return this.#items.plan(items)
+  plan<const L extends Items>(items: L): ReadPlan<ItemResults<L>>
+  plan(items: Items): ReadPlan<unknown> {
+    return planItems(this.#items, items)
   }
 
   /** One call: all its requests share one absolute deadline. @throws RequestError BAD_OPTION */
@@ -315,9 +323,9 @@ export class MelsecPlcClient implements MelsecClient {
     return this.#items.planWrite(entries, options)
   }
 
-  monitor<const L extends readonly Item[]>(items: L): Monitor<ItemResults<L>>
-  monitor(items: readonly Item[]): Monitor<unknown> {
-    return this.#items.monitor(items)
+  monitor<const L extends Items>(items: L): Monitor<ItemResults<L>>
+  monitor(items: Items): Monitor<unknown> {
+    return isList(items) ? this.#items.monitor(items) : namedMonitor(items, (list) => this.#items.monitor(list))
   }
 
   async request<C extends Command>(

@@ -45,6 +45,35 @@ async function named(
   return nameResults(await source.prepare(names.map((name) => items[name] as Item)).run(call), names)
 }
 
+/** Something prepared for items, in their order. */
+interface Prepared {
+  plan(items: readonly Item[]): ReadPlan
+}
+
+/** The plan of a list, or of items by name: its results are in the same form. */
+export function planItems(source: Prepared, items: Items): ReadPlan<unknown> {
+  if (isList(items)) return source.plan(items)
+  const { list, named } = namedItems(items)
+  const plan = source.plan(list)
+  return {
+    run: async (options) => named(await plan.run(options)),
+    describe: () => plan.describe(),
+    toString: () => plan.toString(),
+  }
+}
+
+/** Items by name as a list, and what makes results by name of the results of the list. */
+export function namedItems(items: Readonly<Record<string, Item>>): {
+  readonly list: readonly Item[]
+  readonly named: (results: readonly ReadResult[]) => Record<string, ReadResult>
+} {
+  const names = namesOf(items, 'Items to read are a list of items, or an object of items by name')
+  return {
+    list: names.map((name) => items[name] as Item),
+    named: (results) => byName(names, nameResults(results, names)),
+  }
+}
+
 /** One item and its value. */
 export async function writeItem(
   source: ItemSource,

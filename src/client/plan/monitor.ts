@@ -7,7 +7,9 @@ import type { Deadline } from '../connection/deadline'
 import { about } from '../item/about'
 import type { ParsedItem, RefusedItem } from '../item/item'
 import type { ReadResult } from '../item/item-value'
+import type { Item } from '../item/parts'
 import type { Stretch } from './chunk'
+import { namedItems } from './item-calls'
 import { Areas, piecesOf, readLayout } from './layout'
 import type { PlanProtocol } from './limit'
 import { type DeviceRead, planRead } from './read'
@@ -83,6 +85,24 @@ export interface Monitor<R = ReadResult[]> {
   readonly note: string | undefined
   /** Reads all items once; each has its own result. */
   read(options?: CallOptions): Promise<R>
+}
+
+/** The monitor of items by name: its results are by name, too. */
+export function namedMonitor(
+  items: Readonly<Record<string, Item>>,
+  monitorOf: (items: readonly Item[]) => Monitor,
+): Monitor<unknown> {
+  const { list, named } = namedItems(items)
+  const monitor = monitorOf(list)
+  return {
+    get mode() {
+      return monitor.mode
+    },
+    get note() {
+      return monitor.note
+    },
+    read: async (options) => named(await monitor.read(options)),
+  }
 }
 
 /** A refusal of the PLC, and the connection it was on. */

@@ -70,9 +70,10 @@ export interface PlcClient<Events extends PlcEvents = PlcEvents, T extends ItemT
   readValues<const L extends Items>(items: L, options?: CallOptions): Promise<ValuesIn<T, L>>
   /**
    * The requests that read these items: to look at (`describe()`), and to run again and again without parsing.
-   * Items that cannot be read keep their error as their result.
+   * Items that cannot be read keep their error as their result. Of items by name, the results are by name.
+   * @example const { level } = await plc.plan({ level: 'D100:REAL', start: 'M0' }).run()
    */
-  plan<const L extends readonly Item[]>(items: L): ReadPlan<ResultsIn<T, L>>
+  plan<const L extends Items>(items: L): ReadPlan<ResultsIn<T, L>>
 
   /** Writes many items as `writeValues`. @example await plc.write({ 'D200:REAL': 71.5, M10: true }) */
   write<const L extends readonly Item[], A extends string>(
