@@ -109,3 +109,35 @@ test('the requests of one call take one turn, and the callers that the program n
       field: 'caller',
     })
   }))
+
+test('reads that are repeated anyway let the others go first, and come to their end behind eight of them', async () => {
+  const bench = await Bench.connected({ frame: '3E', timeout: 10_000 })
+  const asked: number[] = []
+  const slow = slowPlc(bench)
+  bench.plc.script = (request) => {
+    asked.push(request.device)
+    slow(request)
+  }
+  bench.read(0)
+  bench.read(1, { priority: 'poll' })
+  for (let i = 0; i < 9; i++) bench.write(9000 + i, i)
+  bench.read(2)
+  await bench.pass(20 * ANSWER)
+  expect(asked).toEqual([0, 9000, 9001, 9002, 9003, 9004, 9005, 9006, 9007, 2, 9008, 1])
+})
+
+test('writes without end do not keep what is repeated from its turn', async () => {
+  const bench = await Bench.connected({ frame: '3E', timeout: 60_000 })
+  bench.plc.script = slowPlc(bench)
+  for (let i = 0; i < 40; i++) bench.write(9000 + i, i)
+  const poll = bench.read(1, { priority: 'poll' })
+  await bench.pass(10 * ANSWER)
+  expect(poll.told).toEqual({ values: [1] })
+})
+
+test('a priority that is none is refused', async () => {
+  const bench = await Bench.connected({ frame: '3E' })
+  const refused = bench.read(1, { priority: 'control' as never })
+  await bench.settle()
+  expect(refused.error).toMatchObject({ code: 'BAD_OPTION', field: 'priority' })
+})

@@ -1,4 +1,5 @@
 import { checkNames, type OptionNames } from '../../basics/option-checks'
+import { shown } from '../../basics/show'
 import { ClosedError, EndCodeError, type PlcError, ProtocolError, RequestError } from '../../errors'
 import type { BodyLength, Exchange, Head, Job, Priority, ResponseFrame, RoundTrips } from '../../link/link'
 import { abortedBeforeSending, asPlcError } from './failure'
@@ -14,6 +15,11 @@ export interface CallOptions {
    * asks a lot does not keep the others waiting. Without it each call is a caller of its own.
    */
   readonly caller?: string | object
+  /**
+   * `poll`: a read that is repeated anyway, so that writes and the reads of others go first. Of eight of those in a row one
+   * turn is given up, so that it comes to its end. Default `read`. A write goes first, whatever is said here.
+   */
+  readonly priority?: 'read' | 'poll'
 }
 
 /** What this package's own calls may say beside. */
@@ -33,7 +39,7 @@ export interface BoundOptions extends CallOptions {
 /** A call may wait for a day, as the option `timeout` of the client. */
 const LONGEST = 24 * 60 * 60 * 1000
 
-const OF_EVERY_CALL: OptionNames<CallOptions> = { timeout: true, signal: true, caller: true }
+const OF_EVERY_CALL: OptionNames<CallOptions> = { timeout: true, signal: true, caller: true, priority: true }
 
 /**
  * The part of a call's options that every call has.
@@ -46,11 +52,12 @@ export function callOptionsOf(given: CallOptions | undefined, own: Readonly<Reco
   checkNames('', given, { ...own, ...OF_EVERY_CALL })
   const problem = optionProblem(given)
   if (problem !== undefined) throw problem
-  const { timeout, signal, caller } = given
+  const { timeout, signal, caller, priority } = given
   return {
     ...(timeout === undefined ? {} : { timeout }),
     ...(signal === undefined ? {} : { signal }),
     ...(caller === undefined ? {} : { caller }),
+    ...(priority === undefined ? {} : { priority }),
   }
 }
 
@@ -62,7 +69,7 @@ export function optionProblem(options: CallOptions): RequestError | undefined {
   if (typeof options !== 'object' || options === null) {
     return new RequestError('BAD_OPTION', 'The options of a call are an object, e.g. { timeout: 1000 }.', 'options')
   }
-  const { timeout, signal, caller } = options
+  const { timeout, signal, caller, priority } = options
   if (timeout !== undefined && !(typeof timeout === 'number' && timeout > 0 && timeout <= LONGEST)) {
     const message = `timeout is ${String(timeout)}; it must be a number of milliseconds, more than 0 and at most ${LONGEST}.`
     return new RequestError('BAD_OPTION', message, 'timeout')
@@ -72,6 +79,9 @@ export function optionProblem(options: CallOptions): RequestError | undefined {
   }
   if (caller !== undefined && typeof caller !== 'string' && (typeof caller !== 'object' || caller === null)) {
     return new RequestError('BAD_OPTION', 'caller is a text or an object: who asks.', 'caller')
+  }
+  if (priority !== undefined && priority !== 'read' && priority !== 'poll') {
+    return new RequestError('BAD_OPTION', `priority is ${shown(priority)}; it must be read or poll.`, 'priority')
   }
   return undefined
 }
@@ -91,6 +101,7 @@ interface CallFacts {
   readonly onlyOn?: number | undefined
   readonly allowance?: number
   readonly caller?: unknown
+  readonly priority?: CallOptions['priority']
 }
 
 /** One request of the caller: the job the session carries. Settled exactly once. */
@@ -110,6 +121,7 @@ export class Call implements Job {
   /** ms it was given in all. */
   readonly allowance?: number
   readonly caller: unknown
+  readonly #asks: Priority
   lineTime: number | undefined
   answerDelay: number | undefined
   #plc: object | undefined
@@ -119,13 +131,14 @@ export class Call implements Job {
     readonly exchange: Exchange<unknown>,
     readonly deadline: number,
     settle: Settle,
-    { sends = true, onlyOn, allowance, caller }: CallFacts = {},
+    { sends = true, onlyOn, allowance, caller, priority = 'read' }: CallFacts = {},
   ) {
     this.#settle = settle
     this.sends = sends
     this.onlyOn = onlyOn
     if (allowance !== undefined) this.allowance = allowance
     this.caller = caller
+    this.#asks = priority
   }
 
   /** It goes over a line: for this PLC, whose answers take so long. */
@@ -145,7 +158,7 @@ export class Call implements Job {
 
   /** What changes the PLC does not wait behind what only asks. */
   get priority(): Priority {
-    return isChange(this.exchange) ? 'control' : 'read'
+    return isChange(this.exchange) ? 'control' : this.#asks
   }
 
   /** Nobody waits for it any more. */

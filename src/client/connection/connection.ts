@@ -124,10 +124,10 @@ export class Connection {
       settle.fail(refusal)
       return
     }
-    const { signal, onlyOn, caller } = options
+    const { signal, onlyOn, caller, priority } = options
     const now = this.#clock.now()
     const timeout = (options.timeout ?? usual) + this.#onTop(exchange, options)
-    const call = new Call(exchange, now + timeout, settle, { sends, onlyOn, allowance: timeout, caller })
+    const call = new Call(exchange, now + timeout, settle, { sends, onlyOn, allowance: timeout, caller, priority })
     if (sends) this.#counters.counts.requests += 1
     if (signal !== undefined) {
       call.abortedBy(
