@@ -3,6 +3,7 @@
 
 export type { CallOptions } from './client/connection/call'
 export type { ConnectionState } from './client/connection/connection'
+export type { ReconnectOptions } from './client/connection/option-checks'
 export type { RoundTrip, Statistics } from './client/connection/statistics'
 export type { ConnectionStateName, Phase } from './client/connection/supervisor'
 export type { TraceEntry } from './client/connection/trace'
@@ -46,6 +47,44 @@ export type {
   WriteValues,
 } from './client/item/item-value'
 export type { Item, ItemOptions } from './client/item/parts'
+export type {
+  JwBuffers,
+  JwRingBuffers,
+  JwRingData,
+  JwRingOptions,
+  JwRingWritten,
+  JwSpecifiedBuffers,
+} from './client/jw/buffers'
+export type { JwClient, JwClientEvents, JwInfo, JwItemTypes, JwMemorySize } from './client/jw/client'
+export type { JwAdjustOptions, JwClock, JwClockTime } from './client/jw/clock'
+export {
+  type JwControl,
+  type JwRunState,
+  type JwStopOptions,
+  type JwWriteModeName,
+  jwWriteModes,
+} from './client/jw/control'
+export { findJwHeader, type JwHeaderFound, type JwHeaderTried } from './client/jw/find-header'
+export type { JwItemExplanation } from './client/jw/item-access'
+export type { JwItemInput, JwItemValue } from './client/jw/item-text'
+export { createJwClient } from './client/jw/jw-client'
+export {
+  type JwClientOptions,
+  type JwProbeKind,
+  type JwTransportName,
+  jwProbeKinds,
+  jwTransportNames,
+} from './client/jw/options'
+export type {
+  JwOptionParameters,
+  JwParameters,
+  JwSpecialIoParameters,
+  JwStarted,
+  JwUnitPlace,
+} from './client/jw/parameters'
+export type { JwSecret } from './client/jw/secret'
+export type { JwRequestOf, JwResponseOf } from './client/jw/send-command'
+
 export type { ItemExplanation, LabelExplanation } from './client/label/explain'
 export type {
   LabelFormat,
@@ -129,6 +168,11 @@ export {
   type WriteResult,
 } from './errors'
 export { plcErrorFrom } from './errors/from-data'
+export type { JwAddress, JwExtendedAddress } from './jw/address'
+export { type JwModel, jwModels } from './jw/commands/command'
+export type { JwHeader, JwRelay } from './jw/header'
+export { assumedJwAreas, type JwArea, type JwConfidence, jwAreas } from './jw/operand/area'
+export type { ParameterBlock } from './jw/parameters/parameter-area'
 export type { Command, RequestOf, ResponseOf } from './melsec/commands/command'
 export type { CommandName, Commands } from './melsec/commands/commands'
 export type { DeviceAddress, DeviceExtension, DeviceName, DeviceUnit, Radix } from './melsec/device/device'

@@ -18,7 +18,7 @@ import type { NamedCommand } from '../link/link'
 import type { JwAddress } from './address'
 import { jwCommands } from './commands/commands'
 import { markerForms } from './commands/data-memory'
-import { HEADER_LENGTH, ID, relayIn } from './header'
+import { HEADER_LENGTH, headerBytes, ID, type JwHeader, relayIn } from './header'
 import { timerAttributes } from './operand/timer'
 import { explainResultCode } from './result-codes/explain'
 
@@ -30,6 +30,17 @@ export interface ExplainJwOptions {
   readonly request?: Buffer
   /** Where FFH stands in lists of relays and registers. Default `once`. */
   readonly marker?: keyof typeof markerForms
+  /** What stands in front of the message, where it is neither nothing nor 40 bytes of which the first is 00. */
+  readonly header?: JwHeader
+}
+
+/** Where the message begins in a frame: behind the header, where there is one. */
+export function messageStartIn(bytes: Buffer, { header = 'none' }: Pick<ExplainJwOptions, 'header'>): number {
+  const given = headerBytes(header)
+  const [first] = bytes
+  if (first === ID.request || first === ID.response) return 0
+  if (given.length > 0 && first === given[0]) return given.length
+  return first === 0 ? HEADER_LENGTH : 0
 }
 
 const { bytes: bytesOf, fixed, u8 } = field
@@ -50,7 +61,7 @@ const responseHead = {
  * @example formatExplanation(explainJwFrame(Buffer.from('4700240000080400', 'hex')))
  */
 export function explainJwFrame(bytes: Buffer, options: ExplainJwOptions = {}): FrameExplanation {
-  const header = bytes[0] === 0 ? HEADER_LENGTH : 0
+  const header = messageStartIn(bytes, options)
   const id = bytes[header]
   if (id === undefined) return notAFrame(bytes, 'the message is missing')
   const direction = options.direction ?? (id === ID.response ? 'response' : 'request')
@@ -202,7 +213,7 @@ function requestIn(
   frame: Buffer,
   options: ExplainJwOptions,
 ): { readonly command: NamedCommand; readonly message: Message } | undefined {
-  const bytes = frame.subarray(frame[0] === 0 ? HEADER_LENGTH : 0)
+  const bytes = frame.subarray(messageStartIn(frame, options))
   const head = annotate(requestHead, bytes, { code: 'binary' })
   const command = commandOf(head.message.command)
   if (head.fault !== undefined || command === undefined) return undefined

@@ -57,6 +57,11 @@ describe('options', () => {
     expect(namesIn('docs/client.md', 'options: client').sort()).toEqual([...all].sort())
   })
 
+  test('of the client of a Sharp JW are those in docs/jw-client.md', () => {
+    const own = membersOf('src/client/jw/options.ts', 'JwClientOptions')
+    expect(namesIn('docs/jw-client.md', 'options: jw client').sort()).toEqual(own.sort())
+  })
+
   test('of a serial port are those in docs/client.md, with their defaults', () => {
     const rows = tableAfter('docs/client.md', 'options: serial')
     const transport = membersOf('src/transport/serial.ts', 'SerialOptions')

@@ -1,10 +1,10 @@
 // From a batch to what is sent: one Write, Write Random or Write Block, or a Read and a Write for bits of words.
 
-import { ClosedError, ConnectionError, PlcError, ProtocolError, TimeoutError } from '../../errors'
 import type { Exchange } from '../../link/link'
 import { commands } from '../../melsec/commands/commands'
 import type { AddressOptions } from '../../melsec/device/address'
 import { type Area, addressAt } from './area'
+import { beforeWriting } from './before-writing'
 import type { Stretch } from './chunk'
 import type { Areas } from './layout'
 import type { PlanProtocol } from './limit'
@@ -269,22 +269,4 @@ function inRow(targets: readonly MaskedWord[], runs: readonly Stretch[]): Stretc
   if (target.area.ways.direct === undefined || first.area.ways.direct === undefined) return undefined
   const isRow = runs.every(({ area, from }, i) => area === first.area && from === first.from + i)
   return isRow ? { ...first, to: first.from + runs.length } : undefined
-}
-
-/** A failure of the read before the write: nothing has been written, whatever became of the read. */
-async function beforeWriting<T>(reading: Promise<T>): Promise<T> {
-  try {
-    return await reading
-  } catch (error) {
-    throw notWritten(error)
-  }
-}
-
-function notWritten(error: unknown): unknown {
-  if (!(error instanceof PlcError) || error.outcome !== 'unknown') return error
-  const message = `Nothing was written, because the word could not be read before: ${error.message}`
-  if (error instanceof TimeoutError) return new TimeoutError(message, 'notSent', error.causes)
-  if (error instanceof ConnectionError) return new ConnectionError(error.code, message, 'notSent', error, error.causes)
-  if (error instanceof ClosedError) return new ClosedError(error.code, message, 'notSent', error)
-  return error instanceof ProtocolError ? new ConnectionError('DISCONNECTED', message, 'notSent', error) : error
 }

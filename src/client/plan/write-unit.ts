@@ -6,8 +6,10 @@ import { badValue } from '../../value/fault'
 import { encodeArray, encodeValue, formatType, type PlcValue, wordsOf } from '../../value/value'
 import type { ParsedItem } from '../item/item'
 import type { PlainValue } from '../item/item-value'
+import { valuesToWrite } from '../item/values-to-write'
 import { type Area, areaKey } from './area'
 import { type Areas, type Layout, type Piece, piecesOf, writeLayout } from './layout'
+import { refuseOverlaps, type WrittenSpan } from './written-twice'
 
 /** What the cells of a unit are set to. */
 export type Content =
@@ -88,19 +90,8 @@ function bitOfWord({ text }: ParsedItem): RequestError {
 }
 
 /** One value or all values of an array. */
-function valuesOf({ text, type, count }: ParsedItem, value: PlainValue): readonly PlcValue[] {
-  const name = formatType(type)
-  if (count === undefined) {
-    if (!isArray(value)) return [value]
-    throw fault(text, `${name} is one value, not an array; an array has a count, e.g. [${value.length}].`)
-  }
-  if (!isArray(value)) throw fault(text, `takes an array of ${count} ${name} values, not ${show(value)}.`)
-  if (value.length !== count) throw fault(text, `takes ${count} values of ${name}, and ${value.length} are given.`)
-  return value
-}
-
-function isArray(value: PlainValue): value is readonly PlcValue[] {
-  return Array.isArray(value)
+function valuesOf(item: ParsedItem, value: PlainValue): readonly PlcValue[] {
+  return valuesToWrite(item, formatType(item.type), value)
 }
 
 function fault(text: string, message: string): RequestError {
@@ -154,33 +145,16 @@ export interface Written {
  * guess. Devices that are the same by another name (index registers, R and ZR) cannot be found.
  */
 export function writtenTwice(areas: Areas, entries: readonly Written[]): Map<number, RequestError> {
-  const byPlace = new Map<string, { written: Written; from: number; to: number }[]>()
+  const byPlace = new Map<string, WrittenSpan[]>()
   for (const written of entries) {
     const place = areaKey('word', written.item.address)
-    const span = { written, ...bitsIn(writeLayout(areas, written.item), written.item.count ?? 1) }
+    const { entry, item } = written
+    const span = { entry, text: item.text, ...bitsIn(writeLayout(areas, written.item), written.item.count ?? 1) }
     byPlace.set(place, [...(byPlace.get(place) ?? []), span])
   }
-  const errors = new Map<number, RequestError>()
-  for (const spans of byPlace.values()) {
-    spans.sort((a, b) => a.from - b.from)
-    let furthest: (typeof spans)[number] | undefined
-    for (const span of spans) {
-      if (furthest !== undefined && span.from < furthest.to) {
-        refuseBoth(errors, furthest.written, span.written)
-      }
-      if (furthest === undefined || span.to > furthest.to) furthest = span
-    }
-  }
-  return errors
+  return refuseOverlaps([...byPlace.values()])
 }
 
 function bitsIn({ start, pitch, width, step }: Layout, count: number): { from: number; to: number } {
   return { from: start, to: start + (count - 1) * pitch + (width - 1) * step + 1 }
-}
-
-function refuseBoth(errors: Map<number, RequestError>, a: Written, b: Written): void {
-  const message = `${a.item.text} and ${b.item.text}: the same device is written twice in one call. Leave one of them out, or write them in two calls.`
-  for (const { entry, item } of [a, b]) {
-    if (!errors.has(entry)) errors.set(entry, new RequestError('BAD_VALUE', message, item.text))
-  }
 }

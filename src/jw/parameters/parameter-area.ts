@@ -29,7 +29,9 @@ export const startSwitch = {
 
 /** Bytes and the parameter address of the first one. */
 export interface ParameterBlock {
+  /** 0 to 0o3777. */
   readonly address: number
+  /** From there on. */
   readonly bytes: Uint8Array
 }
 
