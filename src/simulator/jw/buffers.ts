@@ -37,23 +37,20 @@ export interface RingDefinition extends Definition {
   readonly readPointer: number
 }
 
-interface Ring extends RingDefinition {
+interface Ring extends Definition {
+  readonly direction: number
   writePointer: number
   readPointer: number
-  /** Confirmed type: bytes that were read or written and not yet acknowledged. */
-  unconfirmedRead: number
-  unconfirmedWrite: number
 }
 
-const NOTHING: RingDefinition = {
-  definition: 0,
-  file: 0,
-  address: 0,
-  length: 0,
-  direction: 0,
-  writePointer: 0,
-  readPointer: 0,
+/** Confirmed type: bytes that were read or written and not yet acknowledged. */
+interface Unconfirmed {
+  read: number
+  written: number
 }
+
+const UNDEFINED: Definition = { definition: DEFINITION.none, file: 0, address: 0, length: 0 }
+const UNDEFINED_RING: RingDefinition = { ...UNDEFINED, direction: 0, writePointer: 0, readPointer: 0 }
 
 /** Function switch of 39H; that of 29H is taken to be the same. */
 const FUN = { request: 1, acknowledge: 2, confirmed: 0x80 } as const
@@ -71,7 +68,7 @@ export class SpecifiedBuffers {
   }
 
   information(buffer: number): Definition {
-    return this.#defined.get(buffer) ?? NOTHING
+    return this.#defined.get(buffer) ?? UNDEFINED
   }
 
   read(buffer: number, offset: number, length: number): Buffer {
@@ -113,17 +110,19 @@ export interface PutIntoRing {
 export class RingBuffers {
   readonly #files: Files
   readonly #defined = new Map<number, Ring>()
+  readonly #unconfirmed = new Map<number, Unconfirmed>()
 
   constructor(files: Files) {
     this.#files = files
   }
 
   define(buffer: number, definition: RingDefinition): void {
-    this.#defined.set(buffer, { ...checked(this.#files, definition), unconfirmedRead: 0, unconfirmedWrite: 0 })
+    this.#defined.set(buffer, checked(this.#files, { ...definition }))
+    this.#unconfirmed.set(buffer, { read: 0, written: 0 })
   }
 
   information(buffer: number): RingDefinition {
-    return this.#defined.get(buffer) ?? NOTHING
+    return this.#defined.get(buffer) ?? UNDEFINED_RING
   }
 
   /** Bytes that wait to be read. @throws Refusal */
@@ -137,15 +136,16 @@ export class RingBuffers {
    */
   take(buffer: number, most: number, functions: number = FUN.request): TakenFromRing {
     const ring = this.#ring(buffer)
+    const unconfirmed = this.#unconfirmed.get(buffer) ?? { read: 0, written: 0 }
     if ((functions & FUN.acknowledge) !== 0) {
-      ring.readPointer = (ring.readPointer + ring.unconfirmedRead) % ring.length
-      ring.unconfirmedRead = 0
+      ring.readPointer = (ring.readPointer + unconfirmed.read) % ring.length
+      unconfirmed.read = 0
     }
     const pointer = ring.readPointer
     const count = (functions & FUN.request) === 0 ? 0 : Math.min(most, used(ring))
     const data = this.#bytes(ring, pointer, count)
     const more = used(ring) > count
-    if ((functions & FUN.confirmed) !== 0) ring.unconfirmedRead = count
+    if ((functions & FUN.confirmed) !== 0) unconfirmed.read = count
     else ring.readPointer = (pointer + count) % ring.length
     return { pointer, data, more }
   }
@@ -153,9 +153,10 @@ export class RingBuffers {
   /** All of it or nothing. @throws Refusal */
   put(buffer: number, data: Uint8Array, functions: number = FUN.request): PutIntoRing {
     const ring = this.#ring(buffer)
+    const unconfirmed = this.#unconfirmed.get(buffer) ?? { read: 0, written: 0 }
     if ((functions & FUN.acknowledge) !== 0) {
-      ring.writePointer = (ring.writePointer + ring.unconfirmedWrite) % ring.length
-      ring.unconfirmedWrite = 0
+      ring.writePointer = (ring.writePointer + unconfirmed.written) % ring.length
+      unconfirmed.written = 0
     }
     const pointer = ring.writePointer
     const free = ring.length - 1 - used(ring)
@@ -164,7 +165,7 @@ export class RingBuffers {
       throw new Refusal(result.ringOver, `ring buffer ${buffer} has ${ring.length} bytes`)
     if (bytes.length > free) throw new Refusal(result.ringFull, `ring buffer ${buffer} has room for ${free}`)
     this.#store(ring, pointer, bytes)
-    if ((functions & FUN.confirmed) !== 0) ring.unconfirmedWrite = bytes.length
+    if ((functions & FUN.confirmed) !== 0) unconfirmed.written = bytes.length
     else ring.writePointer = (pointer + bytes.length) % ring.length
     return { pointer, written: bytes.length, free: free - bytes.length }
   }
