@@ -137,6 +137,22 @@ describe('lists', () => {
     )
   })
 
+  test('of a simulated Sharp JW, its members and events are those in docs/simulator.md', () => {
+    const options = tableAfter('docs/simulator.md', 'options: jw simulator').flatMap(([name]) =>
+      codeSpansOf(name ?? ''),
+    )
+    // Time, for tests.
+    const declared = membersOf('src/simulator/jw/options.ts', 'JwSimulatorOptions').filter((name) => name !== 'clock')
+    expect(options.sort()).toEqual(declared.sort())
+    const rows = tableAfter('docs/simulator.md', 'members: jw simulator')
+    const members = rows.flatMap(([name]) => codeSpansOf(name ?? '')).map((span) => span.replace(/\(.*/, ''))
+    expect(members.sort()).toEqual(membersOf('src/simulator/jw/server.ts', 'JwSimulator').sort())
+    const events = rows.find(([member]) => member?.startsWith('`on(') === true)
+    expect(codeSpansOf(events?.[1] ?? '').sort()).toEqual(
+      membersOf('src/simulator/jw/server.ts', 'JwSimulatorEvents').sort(),
+    )
+  })
+
   test('fault kinds and their parameters are those in docs/simulator.md', () => {
     const shown = tableAfter('docs/simulator.md', 'faults').map(([kind, , names]) => [
       codeOf(kind),

@@ -49,6 +49,8 @@ export class OperandMemory implements JwProgramMemory {
   constructor(memory: Memory, options: JwOperandOptions) {
     this.#memory = memory
     this.#options = options
+    // Areas that are none are refused now, not with the first operand.
+    placeOfJw({ kind: 'register', number: 0 }, options)
   }
 
   read(item: string, format?: ValueFormat): PlcValue {
