@@ -7,10 +7,10 @@ import type { ValueFormat } from '../value/value'
 /** Which of the two demo PLCs: an iQ-R, or an FX5U with octal outputs. */
 export type PlantVariant = 'iq-r' | 'iq-f'
 
-/** One value of the demo plant. */
-export interface PlantTag {
+/** One value of a plant of the demo. */
+export interface PlantTag<Name extends string = PlantTagName> {
   /** Name of the tag. */
-  readonly name: PlantTagName
+  readonly name: Name
   /** Address with type, as the client takes it, e.g. `D100:REAL`. */
   readonly address: string
   /** What it is, in English. */

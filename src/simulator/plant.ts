@@ -1,30 +1,16 @@
 // The demo plant: a mixing tank, and the program in the PLC that makes batches with it.
-import { RequestError } from '../errors'
-import type { PlcValue } from '../value/value'
-import { type PlantTag, type PlantTagName, plantTag, plantVariantOf } from './plant-tags'
+import { type PlantTagName, plantTag, plantVariantOf } from './plant-tags'
+import { checkedInterval, type DemoPlant, type DemoPlantOptions, PlantValues, scanning } from './plant-values'
 import type { PlcSimulator } from './server'
 import { type Actuators, TANK_CAPACITY, Tank } from './tank'
 
 export { demoPlantTags, type PlantTag, type PlantTagName, type PlantVariant, plantVariantOf } from './plant-tags'
-
-/** How the mixing tank of the demo runs. */
-export interface DemoPlantOptions {
-  /** ms between two scans of the program. Default 200. */
-  readonly interval?: number
-  /** Whether automatic operation is on from the beginning. Default true. */
-  readonly autoStart?: boolean
-}
+export type { DemoPlant, DemoPlantOptions } from './plant-values'
 
 /** What the plant needs of a simulated PLC: one that listens, or a station of a simulated line. */
 export interface PlantHost extends Pick<PlcSimulator, 'profile' | 'clock' | 'cpu' | 'read' | 'write'> {
   /** Calls `listener` on the event; the returned function ends it. */
   on(event: 'state' | 'restart' | 'clear' | 'close', listener: () => void): () => void
-}
-
-/** The mixing tank of the demo, while it runs. */
-export interface DemoPlant {
-  /** Ends it; the devices keep their values. Also done by `close()` of the PLC. */
-  stop(): void
 }
 
 const PHASE = { stopped: 0, filling: 1, heating: 2, mixing: 3, emptying: 4 } as const
@@ -56,21 +42,10 @@ const TOO_HOT = 95
  * const plant = startDemoPlant(plc)
  */
 export function startDemoPlant(plc: PlantHost, options: DemoPlantOptions = {}): DemoPlant {
-  const { interval = 200, autoStart = true } = options
-  if (!(Number.isFinite(interval) && interval >= 1)) {
-    throw new RequestError('BAD_OPTION', `interval is 1 ms or more, not ${String(interval)}.`, 'interval')
-  }
-  const { clock } = plc
+  const { autoStart = true } = options
+  const interval = checkedInterval(options.interval ?? 200)
   const plant = new Plant(plc, autoStart)
-  let last = clock.now()
-  let cancel = () => {}
-  const scan = () => {
-    const now = clock.now()
-    plant.scan((now - last) / 1000)
-    last = now
-    cancel = clock.timer(interval, scan, { unref: true })
-  }
-  cancel = clock.timer(interval, scan, { unref: true })
+  const cancel = scanning(plc.clock, interval, (elapsed) => plant.scan(elapsed))
   const ends = [
     plc.on('state', () => plant.stateChanged()),
     plc.on('restart', () => plant.initialize()),
@@ -84,13 +59,10 @@ export function startDemoPlant(plc: PlantHost, options: DemoPlantOptions = {}): 
   return { stop }
 }
 
-/** A program that stood still for long, as on a sleeping computer, must not do it all in one step. */
-const LONGEST_STEP = 1
-
 class Plant {
   readonly #plc: PlantHost
   readonly #autoStart: boolean
-  readonly #tags = new Map<PlantTagName, PlantTag>()
+  readonly #values: PlantValues<PlantTagName>
   readonly #tank = new Tank()
   #phase: Phase = 'stopped'
   /** Seconds. */
@@ -100,6 +72,7 @@ class Plant {
   constructor(plc: PlantHost, autoStart: boolean) {
     this.#plc = plc
     this.#autoStart = autoStart
+    this.#values = new PlantValues(plc, (name) => plantTag(plantVariantOf(plc.profile.id), name))
     this.initialize()
   }
 
@@ -108,12 +81,12 @@ class Plant {
     this.#phase = 'stopped'
     this.#batchTime = 0
     this.#mixed = 0
-    this.#set('levelSetPoint', 800)
-    this.#set('temperatureSetPoint', 40)
-    this.#set('mixingTime', 10)
-    this.#set('recipe', 1)
-    this.#set('operator', 'Yamada 山田')
-    this.#set('running', this.#autoStart)
+    this.#values.set('levelSetPoint', 800)
+    this.#values.set('temperatureSetPoint', 40)
+    this.#values.set('mixingTime', 10)
+    this.#values.set('recipe', 1)
+    this.#values.set('operator', 'Yamada 山田')
+    this.#values.set('running', this.#autoStart)
     this.#showProduct()
     this.#showProcess()
   }
@@ -123,59 +96,55 @@ class Plant {
     if (this.#plc.cpu.state === 'STOP') this.#actuate({})
   }
 
-  scan(elapsed: number): void {
-    const seconds = Math.min(elapsed, LONGEST_STEP)
+  scan(seconds: number): void {
     this.#tank.run(seconds, this.#actuators())
-    this.#set('lowLevel', this.#tank.level > EMPTY)
-    this.#set('highLevel', this.#tank.level >= FULL)
+    this.#values.set('lowLevel', this.#tank.level > EMPTY)
+    this.#values.set('highLevel', this.#tank.level >= FULL)
     if (this.#plc.cpu.state !== 'RUN') return
     this.#buttons()
     this.#watch()
-    if (this.#is('running')) this.#run(seconds)
+    if (this.#values.is('running')) this.#run(seconds)
     else this.#actuate({})
-    this.#set('scans', (this.#number('scans') + 1) >>> 0)
+    this.#values.set('scans', (this.#values.number('scans') + 1) >>> 0)
     this.#showProcess()
   }
 
-  /** A button is a bit that people set and the program resets. */
   #buttons(): void {
-    if (this.#pressed('acknowledge')) this.#raise('none')
-    if (this.#pressed('start') && !this.#is('alarm')) this.#set('running', true)
+    if (this.#values.pressed('acknowledge')) this.#raise('none')
+    if (this.#values.pressed('start') && !this.#values.is('alarm')) this.#values.set('running', true)
     // The last word is the stop button's.
-    if (this.#pressed('stop')) this.#set('running', false)
-  }
-
-  #pressed(button: 'start' | 'stop' | 'acknowledge'): boolean {
-    const pressed = this.#is(button)
-    if (pressed) this.#set(button, false)
-    return pressed
+    if (this.#values.pressed('stop')) this.#values.set('running', false)
   }
 
   #watch(): void {
-    if (!this.#is('running')) return
-    if (!this.#within('levelSetPoint') || !this.#within('temperatureSetPoint') || !this.#within('mixingTime')) {
+    if (!this.#values.is('running')) return
+    if (
+      !this.#values.within('levelSetPoint') ||
+      !this.#values.within('temperatureSetPoint') ||
+      !this.#values.within('mixingTime')
+    ) {
       this.#raise('setPoint')
-    } else if (this.#is('inlet') && this.#tank.level >= FULL) this.#raise('full')
-    else if (this.#is('heater') && this.#tank.temperature >= TOO_HOT) this.#raise('hot')
+    } else if (this.#values.is('inlet') && this.#tank.level >= FULL) this.#raise('full')
+    else if (this.#values.is('heater') && this.#tank.temperature >= TOO_HOT) this.#raise('hot')
   }
 
   /** An alarm ends automatic operation until it is acknowledged and started again. */
   #raise(alarm: Alarm): void {
-    this.#set('alarmCode', ALARM[alarm])
-    this.#set('alarm', alarm !== 'none')
-    if (alarm !== 'none') this.#set('running', false)
+    this.#values.set('alarmCode', ALARM[alarm])
+    this.#values.set('alarm', alarm !== 'none')
+    if (alarm !== 'none') this.#values.set('running', false)
   }
 
   #run(seconds: number): void {
-    if (!this.#is('running')) return
+    if (!this.#values.is('running')) return
     if (this.#phase === 'stopped') this.#beginBatch()
     this.#batchTime += seconds
     const { level, temperature } = this.#tank
-    if (this.#phase === 'filling' && level >= this.#number('levelSetPoint')) this.#phase = 'heating'
-    if (this.#phase === 'heating' && temperature >= this.#number('temperatureSetPoint')) this.#phase = 'mixing'
+    if (this.#phase === 'filling' && level >= this.#values.number('levelSetPoint')) this.#phase = 'heating'
+    if (this.#phase === 'heating' && temperature >= this.#values.number('temperatureSetPoint')) this.#phase = 'mixing'
     if (this.#phase === 'mixing') {
       this.#mixed += seconds
-      if (this.#mixed >= this.#number('mixingTime')) this.#phase = 'emptying'
+      if (this.#mixed >= this.#values.number('mixingTime')) this.#phase = 'emptying'
     }
     if (this.#phase === 'emptying' && level <= EMPTY) this.#endBatch()
     this.#actuate({
@@ -183,7 +152,8 @@ class Plant {
       outlet: this.#phase === 'emptying',
       // A two-point controller: it also keeps the temperature while mixing.
       heater:
-        (this.#phase === 'heating' || this.#phase === 'mixing') && temperature < this.#number('temperatureSetPoint'),
+        (this.#phase === 'heating' || this.#phase === 'mixing') &&
+        temperature < this.#values.number('temperatureSetPoint'),
       agitator: this.#phase === 'heating' || this.#phase === 'mixing',
     })
   }
@@ -196,66 +166,41 @@ class Plant {
   }
 
   #endBatch(): void {
-    this.#set('batches', (this.#number('batches') + 1) | 0)
-    this.#set('recipe', (this.#recipe() % PRODUCTS.length) + 1)
+    this.#values.set('batches', (this.#values.number('batches') + 1) | 0)
+    this.#values.set('recipe', (this.#recipe() % PRODUCTS.length) + 1)
     this.#beginBatch()
   }
 
   #recipe(): number {
-    return this.#within('recipe') ? this.#number('recipe') : 1
+    return this.#values.within('recipe') ? this.#values.number('recipe') : 1
   }
 
   #showProduct(): void {
     const product = PRODUCTS[this.#recipe() - 1] ?? PRODUCTS[0]
-    this.#set('product', product.product)
-    this.#set('productJa', product.productJa)
+    this.#values.set('product', product.product)
+    this.#values.set('productJa', product.productJa)
   }
 
   #showProcess(): void {
-    this.#set('level', this.#tank.level)
-    this.#set('temperature', this.#tank.temperature)
-    this.#set('phase', PHASE[this.#is('running') ? this.#phase : 'stopped'])
-    this.#set('batchTime', Math.min(Math.round(this.#batchTime * 1000), 0x7fffffff))
+    this.#values.set('level', this.#tank.level)
+    this.#values.set('temperature', this.#tank.temperature)
+    this.#values.set('phase', PHASE[this.#values.is('running') ? this.#phase : 'stopped'])
+    this.#values.set('batchTime', Math.min(Math.round(this.#batchTime * 1000), 0x7fffffff))
   }
 
   #actuators(): Actuators {
     return {
-      inlet: this.#is('inlet'),
-      outlet: this.#is('outlet'),
-      heater: this.#is('heater'),
-      agitator: this.#is('agitator'),
+      inlet: this.#values.is('inlet'),
+      outlet: this.#values.is('outlet'),
+      heater: this.#values.is('heater'),
+      agitator: this.#values.is('agitator'),
     }
   }
 
   #actuate({ inlet = false, outlet = false, heater = false, agitator = false }: Partial<Actuators>): void {
-    this.#set('inlet', inlet)
-    this.#set('outlet', outlet)
-    this.#set('heater', heater)
-    this.#set('agitator', agitator)
-  }
-
-  #within(name: PlantTagName): boolean {
-    const { min = Number.NEGATIVE_INFINITY, max = Number.POSITIVE_INFINITY } = this.#tag(name)
-    const value = this.#number(name)
-    return value >= min && value <= max
-  }
-
-  #is(name: PlantTagName): boolean {
-    return this.#plc.read(this.#tag(name).address) === true
-  }
-
-  #number(name: PlantTagName): number {
-    return Number(this.#plc.read(this.#tag(name).address))
-  }
-
-  #set(name: PlantTagName, value: PlcValue): void {
-    const { address, encoding } = this.#tag(name)
-    this.#plc.write(address, value, encoding === undefined ? {} : { encoding })
-  }
-
-  #tag(name: PlantTagName): PlantTag {
-    const known = this.#tags.get(name) ?? plantTag(plantVariantOf(this.#plc.profile.id), name)
-    this.#tags.set(name, known)
-    return known
+    this.#values.set('inlet', inlet)
+    this.#values.set('outlet', outlet)
+    this.#values.set('heater', heater)
+    this.#values.set('agitator', agitator)
   }
 }

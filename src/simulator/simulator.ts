@@ -1,4 +1,5 @@
 // The public names of this room.
+export { type BottlingHost, type BottlingTagName, demoBottlingTags, startDemoBottling } from './bottling'
 export type { RequestEvent } from './connection'
 export type { CpuState, Hold, StateChange, SwitchPosition } from './cpu'
 export type { LoggedError } from './error-log'

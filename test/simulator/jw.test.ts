@@ -433,7 +433,7 @@ test('any bytes are answered by messages or by silence, and it lives on', () => 
   const message = fc
     .tuple(fc.constantFrom('', ZERO40), fc.constantFrom(...codes), fc.oneof(some(30), small))
     .map(([front, code, text]) => Buffer.concat([bytes(front), Buffer.of(0x47, 0, code), text]))
-  fc.assert(
+  void fc.assert(
     fc.property(fc.array(fc.oneof(message, some(60)), { maxLength: 8 }), (chunks) => {
       for (const kind of ['stream', 'datagram'] as const) {
         const { plc } = joinJw({ ringBuffers: { 0: { file: 0, address: 0, length: 4 } } })
