@@ -251,6 +251,10 @@ const FOR_TESTS: readonly string[] = [
   'tagsOfMachine',
   'defineTags',
   'tagTable',
+  'importTags',
+  'exportTags',
+  'diffTags',
+  'mergeTags',
 ]
 
 /** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */

@@ -1,8 +1,8 @@
 // Character codes of more than one byte, by their tables in iconv-lite.
 import type * as Iconv from 'iconv-lite'
 
-/** Code pages 932 and 936: what Windows, and so GX Works, means by Shift-JIS and GBK. */
-export type CodePage = 'cp932' | 'cp936' | 'gb18030'
+/** Code pages 932, 936 and 950: what Windows, and so GX Works, means by Shift-JIS, GBK and Big5. */
+export type CodePage = 'cp932' | 'cp936' | 'gb18030' | 'cp950'
 
 /** The tables are large and most programs need none: they are loaded with the first text. */
 function iconv(): typeof Iconv {

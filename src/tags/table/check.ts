@@ -53,6 +53,8 @@ export interface TagCheckOptions {
   readonly readItem?: ReadTagItem
   /** Rows for many machines: `{station}` stands for what differs, so addresses are not checked. */
   readonly template?: boolean
+  /** What a row is called where a message names it; without it `row 3`. */
+  readonly where?: (row: number) => string
 }
 
 /** Longest name, as other products have it. */
@@ -60,6 +62,9 @@ const LONGEST_NAME = 256
 const LONGEST_DESCRIPTION = 1000
 /** More rows are a mistake. */
 const MOST_TAGS = 100_000
+
+/** Half of a pair of surrogates: no file can hold it. */
+const HALF = /\p{Surrogate}/u
 
 /** What was left open for each machine. */
 export const PLACEHOLDER = /\{([\p{L}_][\p{L}\p{M}\p{Nd}_]*)\}/gu
@@ -100,26 +105,33 @@ function problemOf(
   if (unknown.length > 0) {
     messages.push(`A tag has no ${unknown.map((key) => show(key)).join(', ')}; it has ${tagFields.join(', ')}.`)
   }
-  checkName(row.name, at, names, tell)
+  checkName(row.name, at, names, options, tell)
   if (checkFields(row, tell)) checkMeaning(row, options, tell)
   if (messages.length === 0) return undefined
   const name = typeof row.name === 'string' ? { name: row.name } : {}
   return { row: at, ...name, fields: [...fields], message: messages.join(' ') }
 }
 
-function checkName(name: unknown, at: number, names: Map<string, number>, tell: Tell): void {
+function checkName(
+  name: unknown,
+  at: number,
+  names: Map<string, number>,
+  { where = (row) => `row ${row + 1}` }: TagCheckOptions,
+  tell: Tell,
+): void {
   if (typeof name !== 'string' || name === '') {
     tell('name', `A tag needs a name, not ${show(name)}.`)
     return
   }
   if (name !== name.trim()) tell('name', `The name ${show(name)} has spaces around it.`)
   if (/\p{Cc}/u.test(name)) tell('name', 'The name has a control character, such as a tab or a new line.')
+  if (HALF.test(name)) tell('name', 'The name has half a character.')
   if (name === '__proto__') tell('name', 'No tag can have the name __proto__.')
   if (name.length > LONGEST_NAME) tell('name', `The name has ${name.length} characters; ${LONGEST_NAME} is the most.`)
   // Two names that people take for one are one: GX Works does not tell upper from lower case either.
   const key = sameName(name)
   const first = names.get(key)
-  if (first !== undefined) tell('name', `The name ${show(name)} is that of row ${first + 1} already.`)
+  if (first !== undefined) tell('name', `The name ${show(name)} is that of ${where(first)} already.`)
   else names.set(key, at)
 }
 
@@ -154,6 +166,7 @@ function checkFields(
     if (text !== undefined && typeof text !== 'string') wrong(field, `${field} is a text, not ${show(text)}.`)
     else if (text !== undefined && text.length > LONGEST_DESCRIPTION)
       wrong(field, `${field} has ${text.length} characters; ${LONGEST_DESCRIPTION} is the most.`)
+    else if (text !== undefined && HALF.test(text)) wrong(field, `${field} has half a character.`)
   }
   const accesses: readonly unknown[] = tagAccesses
   if (access !== undefined && !accesses.includes(access)) {
