@@ -78,7 +78,7 @@ describe('reading', () => {
     plc.files.get(2)?.set([0xff, 0xff], 0)
     const plan = client.plan(['F2:0:INT', '09000', '004033', 'F1:00100000'])
     expect(texts(plan)).toEqual([
-      'Monitor registers (27H): file 0, 000403, file 0, 004000, file 1, 100000, file 2, 000000 to 000001, 5 bytes',
+      'Monitor registers (27H): file 2, 000000 to 000001, file 1, 100000, file 0, 000403, file 0, 004000, 5 bytes',
     ])
     expect((await plan.run()).map(brief)).toEqual([-1, 9, false, 0])
   })
