@@ -1,7 +1,7 @@
 // `--fault`: a fault of the simulated PLC as it is typed.
-import { commands } from '../entry/codec'
-import { type Fault, type FaultKind, faultKinds } from '../entry/simulator'
-import { type CommandName, RequestError } from '../index'
+import { commands, type JwCommandName, jwCommands } from '../entry/codec'
+import { type Fault, type FaultKind, faultKinds, type JwFaultAction } from '../entry/simulator'
+import { RequestError } from '../index'
 import { endCodeOf } from './end-code'
 
 /**
@@ -10,24 +10,33 @@ import { endCodeOf } from './end-code'
  * @example faultOf('endCode:endCode=C056,commands=readWords+readBits,times=1')
  */
 export function faultOf(text: string): Fault {
+  // The names and values are the user's; the simulator checks them against the kind.
+  return parsed(text, Object.keys(commands)) as Fault
+}
+
+/** The same of a simulated Sharp JW: its commands, and result codes. */
+export function jwFaultOf(text: string): Fault<JwCommandName, JwFaultAction> {
+  return parsed(text, Object.keys(jwCommands)) as Fault<JwCommandName, JwFaultAction>
+}
+
+function parsed(text: string, names: readonly string[]): { readonly kind: FaultKind } {
   const [, kind = '', settings = ''] = /^([^:]*)(?::(.*))?$/s.exec(text.trim()) ?? []
   if (!isKind(kind))
     bad(text, `there is no fault ${JSON.stringify(kind)}. Faults are ${Object.keys(faultKinds).join(', ')}.`)
-  const entries = settings === '' ? [] : settings.split(',').map((setting) => settingOf(text, setting))
-  // The names and values are the user's; the simulator checks them against the kind.
-  return { kind, ...Object.fromEntries(entries) } as Fault
+  const entries = settings === '' ? [] : settings.split(',').map((setting) => settingOf(text, setting, names))
+  return { kind, ...Object.fromEntries(entries) }
 }
 
 function isKind(kind: string): kind is FaultKind {
   return Object.hasOwn(faultKinds, kind)
 }
 
-function settingOf(text: string, setting: string): readonly [string, unknown] {
+function settingOf(text: string, setting: string, names: readonly string[]): readonly [string, unknown] {
   const [, name, value = ''] = /^\s*(\w+)\s*=\s*(.*?)\s*$/.exec(setting) ?? []
   if (name === undefined) bad(text, `${JSON.stringify(setting)} is no setting: write name=value, e.g. delay:ms=500.`)
   switch (name) {
     case 'commands':
-      return [name, value.split('+').map((command) => commandOf(text, command))]
+      return [name, value.split('+').map((command) => commandOf(text, command, names))]
     case 'endCode':
       return [name, endCodeOf(value)]
     default:
@@ -35,12 +44,9 @@ function settingOf(text: string, setting: string): readonly [string, unknown] {
   }
 }
 
-function commandOf(text: string, name: string): CommandName {
-  const found = Object.values(commands).find((command) => command.name === name)
-  return (
-    found?.name ??
-    bad(text, `there is no command ${JSON.stringify(name)}. Commands are ${Object.keys(commands).join(', ')}.`)
-  )
+function commandOf(text: string, name: string, names: readonly string[]): string {
+  if (names.includes(name)) return name
+  return bad(text, `there is no command ${JSON.stringify(name)}. Commands are ${names.join(', ')}.`)
 }
 
 function bad(text: string, reason: string): never {

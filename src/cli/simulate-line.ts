@@ -30,6 +30,7 @@ interface OwnOptions extends SerialLineOptions {
 
 /** The options of a line as commander gives them, those among them that a PLC at Ethernet has, too. */
 export interface LineOptions extends OwnOptions {
+  readonly family: 'melsec' | 'jw'
   readonly profile: ProfileId
   readonly host: string
   readonly port: number
@@ -60,6 +61,7 @@ const OWN = {
 } as const satisfies Readonly<Record<keyof OwnOptions, true>>
 
 const SHARED = {
+  family: true,
   profile: true,
   host: true,
   port: true,

@@ -20,6 +20,7 @@ import { moduleOf } from './module-option'
 import { onDemandWords, sendAgainAndAgain, takeLines } from './on-demand'
 import { whole } from './option'
 import { json, table } from './output'
+import { addJwOptions, isJw, type JwOptions, jwExamples, simulateJw } from './simulate-jw'
 import { addLineOptions, isLine, type LineOptions, lineExamples, simulateLine } from './simulate-line'
 import { addressRow, addressText, isLoopback, outcomeText, plantTable } from './simulated'
 import type { Terminal } from './terminal'
@@ -31,19 +32,16 @@ const examples = [
   "simulate --label Line1.Speed:REAL=12.5 --label 'Line1.Values:INT[10]=1,2,3'",
   'simulate --port 0 --no-udp --fault delay:ms=500 --fault endCode:endCode=C056,commands=readWords,times=1',
   ...lineExamples,
+  ...jwExamples,
 ]
 
 /** The port of the demo, too. */
 const USUAL_PORT = 5007
 
-interface SimulateOptions extends LineOptions {
-  readonly udpPort?: number
-  readonly tcp: boolean
-  readonly udp: boolean
+interface SimulateOptions extends LineOptions, JwOptions {
   readonly ascii?: boolean
   readonly asciiZr?: 'decimal' | 'hexadecimal'
   readonly drive: readonly string[]
-  readonly maxConnections?: number
   readonly onDemand?: readonly number[]
   readonly onDemandEvery: number
   readonly interactive?: boolean
@@ -60,7 +58,7 @@ interface SimulateOptions extends LineOptions {
 export const simulateCommand: MakeCommand = (run) => {
   const command = newCommand('simulate', 'start a simulated PLC; Ctrl-C ends it', examples)
     .description(
-      'Start a simulated PLC that answers SLMP as a CPU of the family does. It listens on this computer only, unless ' +
+      'Start a simulated PLC that answers SLMP as a CPU of the family does, or as a Sharp JW does. It listens on this computer only, unless ' +
         '--host says otherwise, and lives until Ctrl-C.',
     )
     .addOption(profileOption().default('iq-r'))
@@ -76,7 +74,7 @@ export const simulateCommand: MakeCommand = (run) => {
     .addOption(frameOption('take this frame only; default: all of the profile', frameNames))
   addCodeOptions(command)
   command
-    .option('--plant', 'run the demo plant in it: a mixing tank')
+    .option('--plant', 'run the demo plant in it: a mixing tank; in a Sharp JW a bottling line')
     .addOption(
       new Option('--fault <fault>', 'switch a fault on; may be repeated').default([], 'none').argParser(collect),
     )
@@ -120,11 +118,12 @@ export const simulateCommand: MakeCommand = (run) => {
     .option('--interactive', 'take lines from the standard input: "ondemand 1 2 3" sends On-demand once')
     .option('--log', 'print every request')
     .addOption(jsonOption())
-  addLineOptions(command).addHelpText('after', faultHelp)
+  addJwOptions(addLineOptions(command)).addHelpText('after', faultHelp)
   return command.action((options: SimulateOptions) =>
-    perform(run, options, async () =>
-      isLine(command, options) ? simulateLine(run.terminal, command, options) : simulate(run.terminal, options),
-    ),
+    perform(run, options, async () => {
+      if (isJw(command, options)) return simulateJw(run.terminal, options)
+      return isLine(command, options) ? simulateLine(run.terminal, command, options) : simulate(run.terminal, options)
+    }),
   )
 }
 

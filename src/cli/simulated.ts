@@ -1,5 +1,6 @@
 // How simulated PLCs show themselves, whatever they are at.
-import type { demoPlantTags, Endpoint, RequestEvent } from '../entry/simulator'
+import type { Endpoint, PlantTag, RequestEvent } from '../entry/simulator'
+import type { EndCodeFamily } from '../index'
 import { endCodeText } from './end-code'
 import { table } from './output'
 
@@ -15,7 +16,7 @@ export function addressText({ host, port }: Endpoint): string {
   return `${host.includes(':') ? `[${host}]` : host}:${port}`
 }
 
-export function plantTable(tags: (typeof demoPlantTags)['iq-r']): string {
+export function plantTable(tags: readonly PlantTag<string>[]): string {
   return table(
     tags.map(({ name, address, title, unit, writable }) => [
       address,
@@ -29,11 +30,12 @@ export function plantTable(tags: (typeof demoPlantTags)['iq-r']): string {
 
 /** What became of a request, in words. */
 export function outcomeText({ command, endCode, frame }: RequestEvent): string {
+  return outcomeIn(frame === '1E' || frame === '1C' ? frame : 'slmp', command, endCode)
+}
+
+/** The same for any family of end codes. */
+export function outcomeIn(family: EndCodeFamily, command: string | undefined, endCode: number | undefined): string {
   const answer =
-    endCode === undefined
-      ? 'not answered'
-      : endCode === 0
-        ? 'carried out'
-        : `refused ${endCodeText(endCode, frame === '1E' || frame === '1C' ? frame : 'slmp')}`
+    endCode === undefined ? 'not answered' : endCode === 0 ? 'carried out' : `refused ${endCodeText(endCode, family)}`
   return `${command ?? 'unknown command'}: ${answer}`
 }

@@ -17,7 +17,6 @@ export type { OpenFile } from './files'
 export type { SimulatedBuffer, SimulatedRingBuffer } from './jw/buffers'
 export type { JwRequestEvent } from './jw/connection'
 export type { JwStateChange, JwWriteMode, SimulatedJwCpu } from './jw/cpu'
-export type { JwCommandName } from './jw/handler'
 export type { JwSimulatorOptions } from './jw/options'
 export type { JwProgramMemory } from './jw/program-memory'
 export {

@@ -5,7 +5,7 @@ import { join } from 'node:path'
 import { afterEach, beforeAll, describe, expect, test } from '@jest/globals'
 import { commands } from '../../src/entry/codec'
 import { createPlcSimulator } from '../../src/entry/simulator'
-import { createMelsecClient, type MelsecClient, type MelsecOptions } from '../../src/index'
+import { createJwClient, createMelsecClient, type MelsecClient, type MelsecOptions } from '../../src/index'
 import { ttyPair } from '../support/tty-pair'
 import { build, example, type Running, run, start, startWith } from './cli'
 import { runHere } from './in-process'
@@ -144,6 +144,16 @@ describe('simulate', () => {
     [['--frame', '3C', '--message-format', '5'], /frames is 3C; it must be 4C/],
     [['--stations', '0', '--frame', '3E'], /frames is 3E; it must be 1C or 3C or 4C/],
     [['--serial', 'COM1', '--baud-rate', '1'], /baudRate 1: give 300/],
+    [['--family', 'jw', '--profile', 'iq-f'], /A Sharp JW has no --profile/],
+    [['--family', 'jw', '--stations', '0'], /A Sharp JW has no --stations/],
+    [['--family', 'jw', '--password'], /A Sharp JW has no --password/],
+    [['--family', 'jw', '--write-mode', '3'], /0 to 2/],
+    [['--family', 'jw', '--fault', 'silence:commands=readWords'], /there is no command "readWords"/],
+    [['--family', 'jw', '--fault', 'wrongSerial'], /There is no fault "wrongSerial"/],
+    [['--family', 'jw', '--fault', 'endCode:endCode=100'], /from 1 to 255/],
+    [['--write-mode', '1'], /--write-mode is for a Sharp JW: give --family jw/],
+    [['--stations', '0', '--header', 'none'], /--header is for a Sharp JW/],
+    [['--fault', 'otherHeader'], /There is no fault "otherHeader"/],
   ])('%j is wrong use', async (args, message) => {
     const { code, out, err } = await runHere(['simulate', ...args])
     expect([code, out]).toEqual([2, ''])
@@ -156,6 +166,58 @@ describe('simulate', () => {
     expect(code).toBe(4)
     expect(err).toMatch(new RegExp(String(port)))
     expect(err).not.toMatch(/^\s+at /m)
+  })
+})
+
+describe('simulate, a Sharp JW', () => {
+  test('with a bottling line, written by a client, with its requests printed', async () => {
+    const { program, port } = await simulate('--family', 'jw', '--plant', '--write-mode', '1', '--log')
+    await program.says(/^Simulated Sharp JW300 with JW-255CM/)
+    await program.says(/Header +any\n +Write mode +1, data memory may be written/)
+    await program.says(/19000:UINT +bottleSize +Recipe: content \(ml\) +may be written/)
+    const client = createJwClient({ host: '127.0.0.1', port, allowWrites: true })
+    try {
+      expect(await client.read('19000:UINT')).toBe(500)
+      await client.write('19000:UINT', 600)
+      expect(await client.read('19000:UINT')).toBe(600)
+      await program.says(/127\.0\.0\.1:\d+ writeDataMemory: carried out/)
+    } finally {
+      await client.close()
+    }
+  })
+
+  test('without write mode, with a fault, as JSON', async () => {
+    const program = start(
+      'simulate',
+      '--family',
+      'jw',
+      '--port',
+      '0',
+      '--no-udp',
+      '--json',
+      '--header',
+      'zero40',
+      '--fault',
+      'endCode:endCode=0F,commands=readDataMemory,times=1',
+    )
+    running.push(program)
+    const [text] = await program.says(/\{\n.*\n\}/s)
+    const said = JSON.parse(text) as { readonly tcp: { readonly port: number } }
+    expect(said).toMatchObject({
+      family: 'jw',
+      model: 'jw300',
+      header: 'zero40',
+      writeMode: 0,
+      tcp: { host: '127.0.0.1' },
+    })
+    const client = createJwClient({ host: '127.0.0.1', port: said.tcp.port, header: 'zero40', allowWrites: true })
+    try {
+      await expect(client.read('09012')).rejects.toMatchObject({ endCode: 0x0f })
+      expect(await client.read('09012')).toBe(0)
+      await expect(client.write('09012', 1)).rejects.toThrow('10H')
+    } finally {
+      await client.close()
+    }
   })
 })
 

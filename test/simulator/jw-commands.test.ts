@@ -1,6 +1,5 @@
 import { describe, expect, test } from '@jest/globals'
-import { jwCommands as commands, type JwCommands } from '../../src/jw/commands/commands'
-import type { JwCommandName } from '../../src/simulator/simulator'
+import { jwCommands as commands, type JwCommandName, type JwCommands } from '../../src/jw/commands/commands'
 import { type JwJoined, joinJw } from './jw-support'
 
 const R09012 = { file: 0, address: 0o4012 } as const

@@ -1,12 +1,11 @@
 import { describe, expect, test } from '@jest/globals'
 import * as fc from 'fast-check'
-import type { JwCommands } from '../../src/jw/commands/commands'
+import type { JwCommandName, JwCommands } from '../../src/jw/commands/commands'
 import { jwFrame } from '../../src/jw/frame'
 import type { NamedCommand } from '../../src/link/link'
 import {
   createJwSimulator,
   faultKinds,
-  type JwCommandName,
   type JwFaultAction,
   type JwRequestEvent,
   type JwSimulatorOptions,

@@ -1,7 +1,8 @@
 // What a simulated JW does with each command: the declarations say which there are, and what an answer has.
+import type { JwCommandName } from '../../jw/commands/commands'
 import { Refusal } from '../refusal'
 import type { JwWriteMode } from './cpu'
-import type { JwCommandName, JwHandler, JwParts } from './handler'
+import type { JwHandler, JwParts } from './handler'
 import { result } from './result'
 
 export const jwHandlers: { readonly [N in JwCommandName]: JwHandler<N> } = {

@@ -2,7 +2,7 @@
 import type { Message } from '../../codec/codec'
 import { PlcError } from '../../errors'
 import { checkSendable } from '../../jw/check'
-import { type JwCommands, jwCommands } from '../../jw/commands/commands'
+import { type JwCommand, jwCommands } from '../../jw/commands/commands'
 import type { JwHead } from '../../jw/frame'
 import { jwProtocol } from '../../jw/protocol'
 import type { HeadProtocol, RequestFrame } from '../../link/link'
@@ -11,7 +11,7 @@ import { DEFINITION, DIRECTION, RingBuffers, SpecifiedBuffers } from './buffers'
 import { PlcClock } from './clock'
 import { JwCpu, type JwStateChange } from './cpu'
 import { Files } from './files'
-import type { JwCommandName, JwParts } from './handler'
+import type { JwParts } from './handler'
 import { conditions, jwHandlers } from './handlers'
 import { type JwSettings, numbered } from './options'
 import { result } from './result'
@@ -20,8 +20,6 @@ import { Timers } from './timers'
 import { OptionUnits, SpecialIo } from './units'
 
 const SYSTEM_MEMORY = 0x480
-
-type JwCommand = JwCommands[JwCommandName]
 
 /** A request as it was understood. */
 export interface JwReceived {
