@@ -68,6 +68,7 @@ export { findJwHeader, type JwHeaderFound, type JwHeaderTried } from './client/j
 export type { JwItemExplanation } from './client/jw/item-access'
 export type { JwItemInput, JwItemValue } from './client/jw/item-text'
 export { createJwClient } from './client/jw/jw-client'
+export type { JwRequestExplanation } from './client/jw/named-request'
 export {
   type JwClientOptions,
   type JwProbeKind,

@@ -85,8 +85,9 @@ function functionOf({ confirmed = false, acknowledge = false }: JwRingOptions): 
 
 export function jwBuffers(send: SendJwCommand): JwBuffers {
   const ringCall = (options: JwRingOptions): CallOptions => {
+    const call = callOptionsOf(options, RING_OPTIONS)
     checkBooleans(options, ['confirmed', 'acknowledge'])
-    return callOptionsOf(options, RING_OPTIONS)
+    return call
   }
   return {
     specified: {
@@ -102,13 +103,15 @@ export function jwBuffers(send: SendJwCommand): JwBuffers {
     },
     ring: {
       read: async (ring, length = 1024, options = {}) => {
+        const call = ringCall(options)
         const message = { buffer: ring, function: functionOf(options), length }
-        const { data, pointer, more } = await send(jwCommands.readRingBuffer, message, ringCall(options))
+        const { data, pointer, more } = await send(jwCommands.readRingBuffer, message, call)
         return { data, pointer, more: more === 1 }
       },
       write: async (ring, data, options = {}) => {
+        const call = ringCall(options)
         const message = { buffer: ring, function: functionOf(options), data }
-        const { written, free, pointer } = await send(jwCommands.writeRingBuffer, message, ringCall(options))
+        const { written, free, pointer } = await send(jwCommands.writeRingBuffer, message, call)
         return { written, free, pointer }
       },
       info: async (ring, options) => send(jwCommands.readRingBufferInformation, { buffer: ring }, options),

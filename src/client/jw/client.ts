@@ -11,6 +11,7 @@ import type { JwClock, JwClockTime } from './clock'
 import type { JwControl, JwRunState, JwWriteModeName } from './control'
 import type { JwItemExplanation } from './item-access'
 import type { JwItemInput, JwItemValue } from './item-text'
+import type { JwRequestExplanation } from './named-request'
 import type { JwClientOptions } from './options'
 import type { JwParameters } from './parameters'
 import type { JwSecret } from './secret'
@@ -79,6 +80,13 @@ export interface JwClient extends PlcClient<JwClientEvents, JwItemTypes> {
    * @example await plc.request(jwCommands.readDataMemory, { head: { file: 0, address: 0o4000 }, length: 4 })
    */
   request<C extends JwCommand>(command: C, message: JwRequestOf<C>, options?: CallOptions): Promise<JwResponseOf<C>>
+  /**
+   * Sends any declared command by its name or code, with its message as JSON: see `jwMessageFromJson`.
+   * @example await plc.requestByName('readDataMemory', { head: '09000', length: 4 })
+   */
+  requestByName(name: string, message?: unknown, options?: CallOptions): Promise<Readonly<Record<string, unknown>>>
+  /** What `requestByName` would send. @throws RequestError for what it would refuse before sending, but not permissions */
+  explainRequest(name: string, message?: unknown): JwRequestExplanation
   /** Sends 1 to 1024 bytes and compares what comes back (80H of a JW300). @returns ms from sending to the answer. */
   selfTest(data?: Uint8Array, options?: CallOptions): Promise<{ readonly roundTrip: number }>
   /** Size of the program memory (4DH). */

@@ -3,6 +3,7 @@ import { isPlainObject } from '../../basics/option-checks'
 import { RequestError } from '../../errors'
 import type { JwCommand } from '../../jw/commands/commands'
 import { jwCommands } from '../../jw/commands/commands'
+import type { JwOperandOptions } from '../../jw/operand/map'
 import { jwProtocol } from '../../jw/protocol'
 import { jwExplainer } from '../../jw/trace-explainer'
 import type { Exchange } from '../../link/link'
@@ -40,6 +41,7 @@ import { JwItemAccess, type JwItemExplanation } from './item-access'
 import { checkMessageSize, type JwLimits, jwLimits } from './limits'
 import { jwLine } from './line-of'
 import { ListProof } from './list-proof'
+import { explainJwRequest, type JwRequestExplanation, namedJwRequest } from './named-request'
 import type { JwClientOptions } from './options'
 import { type JwParameters, jwParameters } from './parameters'
 import { jwNotPermitted } from './permission'
@@ -252,6 +254,26 @@ export class JwPlcClient implements JwClient {
     const { send } = this.#call(options)
     checkJwRequest(command, message)
     return send(this.#protocol.exchange(command, message))
+  }
+
+  async requestByName(
+    name: string,
+    message: unknown = {},
+    options?: CallOptions,
+  ): Promise<Readonly<Record<string, unknown>>> {
+    const named = namedJwRequest(name, message, this.#operands)
+    return this.request(named.command, named.message, options)
+  }
+
+  explainRequest(name: string, message: unknown = {}): JwRequestExplanation {
+    const named = namedJwRequest(name, message, this.#operands)
+    this.#protocol.exchange(named.command, named.message)
+    return explainJwRequest(named)
+  }
+
+  get #operands(): JwOperandOptions {
+    const { areas } = this.#settings
+    return areas === undefined ? {} : { areas }
   }
 
   async selfTest(data: Uint8Array = LOOPBACK, options?: CallOptions): Promise<{ readonly roundTrip: number }> {

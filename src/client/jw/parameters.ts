@@ -1,7 +1,7 @@
 // Parameters of option units and of special I/O units, with the procedure of the start switch.
 
 import { hex } from '../../basics/hex'
-import { wholeNumber } from '../../basics/option-checks'
+import { checkNames, type OptionNames, wholeNumber } from '../../basics/option-checks'
 import { PlcError, UnfinishedError, VerifyError } from '../../errors'
 import { jwCommands } from '../../jw/commands/commands'
 import {
@@ -80,7 +80,9 @@ export function jwParameters(parts: JwCallParts, limits: JwLimits): JwParameters
 
 const LAST = 7
 
-function checkedPlace({ rack, unit }: JwUnitPlace): JwUnitPlace {
+function checkedPlace(place: JwUnitPlace): JwUnitPlace {
+  checkNames('place.', place, { rack: true, unit: true } satisfies OptionNames<JwUnitPlace>)
+  const { rack, unit } = place
   return { rack: wholeNumber('rack', rack, 0, LAST), unit: wholeNumber('unit', unit, 0, LAST) }
 }
 

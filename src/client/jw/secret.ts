@@ -1,4 +1,5 @@
 // The secret function, which keeps others from the program of the PLC.
+import { oneOf } from '../../basics/option-checks'
 import { jwCommands } from '../../jw/commands/commands'
 import type { CallOptions } from '../connection/call'
 import type { SendJwCommand } from './send-command'
@@ -32,7 +33,9 @@ export function jwSecret(send: SendJwCommand): JwSecret {
     enable: async (options) => set(FUNCTION.enable, options),
     erasePassword: async (options) => set(FUNCTION.erase, options),
     release: async (password, options) => give(PASSWORD.release, password, options),
-    register: async (password, final, options) =>
-      give(final ? PASSWORD.final : PASSWORD.provisional, password, options),
+    register: async (password, final, options) => {
+      oneOf('final', final, [true, false])
+      await give(final ? PASSWORD.final : PASSWORD.provisional, password, options)
+    },
   }
 }

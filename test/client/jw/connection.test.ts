@@ -139,6 +139,23 @@ describe('requests', () => {
     expect(plc.asked).toEqual([])
   })
 
+  test('go by their names and codes, with messages as JSON', async () => {
+    const { client: made, plc } = inMemory()
+    client = made
+    plc.files.get(0)?.set([1, 2], 0o4000)
+    const { data } = await made.requestByName('readDataMemory', { head: '09000', length: 2 })
+    expect(data).toEqual(Buffer.of(1, 2))
+    expect(await made.requestByName('E8H')).toEqual({ state: 0 })
+    expect(made.explainRequest('setRelay', { address: 'KO0403', bit: 3, value: 1 })).toMatchObject({
+      name: 'setRelay',
+      effect: 'write',
+      message: { bit: 3, value: 1 },
+    })
+    expect(() => made.explainRequest('setMemorySize', { size: 3 })).toThrow('JW300')
+    expect(await failureOf(made.requestByName('readWords'))).toMatchObject({ code: 'BAD_OPTION' })
+    expect(plc.asked).toEqual(['readDataMemory', 'readRunState'])
+  })
+
   test('over UDP a message of 1024 bytes and more is refused before sending', async () => {
     const { client: made, plc } = inMemory({ transport: 'udp', header: 'zero40' }, new SmallJw('datagram'))
     client = made
