@@ -113,6 +113,8 @@ describe('refused', () => {
     ['port 0', { port: 0 }, 'port', 'port is 0'],
     ['a port that is text', { port: '5007' }, 'port', 'port is 5007'],
     ['another transport', { transport: 'rs485' }, 'transport', 'must be tcp or udp or serial'],
+    ['UDP to a device server', { profile: 'fx5-serial', transport: 'udp' }, 'transport', 'reached by TCP'],
+    ['a local port of a serial line', { profile: 'fx5-serial', localPort: 5000 }, 'localPort', 'leave it out'],
     ['a serial line without a port', { transport: 'serial' }, 'serial.path', 'give serial.path'],
     ['another profile', { profile: 'fx9' }, 'profile', `Choose one of: ${profileIds.join(', ')}`],
     ['another frame', { frame: '2E' }, 'frame', 'has no 2E frame'],

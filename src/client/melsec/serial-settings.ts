@@ -1,6 +1,7 @@
 // What the options of a client say about a serial line: its own one, or one that it shares.
 import { definedOf } from '../../basics/defined'
 import { oneOf, wholeNumber } from '../../basics/option-checks'
+import { shown } from '../../basics/show'
 import type { DataCode } from '../../codec/codec'
 import { RequestError } from '../../errors'
 import type { SerialProtocolOptions } from '../../melsec/client-protocol'
@@ -15,6 +16,7 @@ import { SerialLine, serialLineOf } from './serial-line'
 export function serialLineFor(options: MelsecClientOptions, profile: Profile): SerialLine | undefined {
   const { frame: given, line, serial, host, port, messageFormat, sumCheck, serialFrame } = options
   if (line !== undefined) {
+    refuseEthernetOptions(options)
     for (const name of [
       'frame',
       'messageFormat',
@@ -36,6 +38,7 @@ export function serialLineFor(options: MelsecClientOptions, profile: Profile): S
     refuseSerialOptions(options, frame ?? profile.frame)
     return undefined
   }
+  refuseEthernetOptions(options)
   return new SerialLine(
     definedOf({
       frame: frame === undefined || !isSerialFrame(frame) ? undefined : frame,
@@ -57,6 +60,16 @@ function refuseSerialOptions(options: MelsecClientOptions, frame: FrameName): vo
   for (const name of ['serial', 'messageFormat', 'sumCheck', 'serialFrame', 'messageWait'] as const) {
     if (options[name] === undefined) continue
     const message = `${name} is for the serial frames 1C, 3C and 4C, not for ${frame}: choose a serial profile or frame, or leave it out.`
+    throw new RequestError('BAD_OPTION', message, name)
+  }
+}
+
+/** What a serial line has no use for, also behind a device server. */
+function refuseEthernetOptions({ transport, localAddress, localPort }: MelsecClientOptions): void {
+  const given = { localAddress, localPort, transport: transport === 'udp' ? transport : undefined }
+  for (const [name, value] of Object.entries(given)) {
+    if (value === undefined || value === 0) continue
+    const message = `${name} ${shown(value)} is for Ethernet ports of PLCs: on a serial line leave it out. A device server is reached by TCP.`
     throw new RequestError('BAD_OPTION', message, name)
   }
 }
