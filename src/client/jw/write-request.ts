@@ -1,8 +1,9 @@
 // From a batch to what is sent.
+import { hex } from '../../basics/hex'
 import { EndCodeError, PlcError, UnfinishedError } from '../../errors'
 import type { JwCommand } from '../../jw/commands/commands'
 import { jwCommands } from '../../jw/commands/commands'
-import type { Exchange } from '../../link/link'
+import { type Exchange, endedWith } from '../../link/link'
 import { beforeWriting } from '../plan/before-writing'
 import type { SendExchange } from '../plan/request'
 import type { RunStep } from '../plan/write-run'
@@ -47,9 +48,27 @@ export function jwWriteStep(context: JwWriteContext, { kind, units }: JwBatch): 
 
 function sending(units: readonly JwWriteUnit[], prepared: JwPrepared): JwWriteStep {
   const perform = async (send: SendExchange) => {
-    await send(prepared.exchange)
+    try {
+      await send(prepared.exchange)
+    } catch (error) {
+      throw prepared.points === 1 ? wholly(error, prepared.command) : error
+    }
   }
   return { units, prepared: [prepared], isList: false, perform }
+}
+
+/**
+ * A code about an address leaves open what became of the elements in front of it. Where there is one element, there is nothing in
+ * front: nothing was done.
+ */
+function wholly(error: unknown, { title, name }: JwCommand): unknown {
+  if (!(error instanceof EndCodeError) || error.about !== 'item' || error.outcome !== 'unknown') return error
+  const { endCode, meaning, remedy } = error
+  const facts = { family: 'jw', about: 'item', carriedOut: false, command: title, commandName: name } as const
+  const texts = { ...(meaning === undefined ? {} : { meaning }), ...(remedy === undefined ? {} : { remedy }) }
+  const sentences = [meaning, remedy].filter((text) => text !== undefined).join(' ')
+  const message = `${title} ${endedWith(facts, `result code ${hex(endCode, 2)}H`)}. ${sentences}`
+  return new EndCodeError(endCode, message, { ...facts, ...texts })
 }
 
 function firstOf(units: readonly JwWriteUnit[]): JwWriteUnit {

@@ -281,6 +281,25 @@ describe('writing', () => {
     expect(plc.byte(0, 0o4000)).toBe(1)
   })
 
+  test('a refused byte or relay was not written, so that what follows it is', async () => {
+    start()
+    const results = await client.writeEach({ 'F9:0': 1, '09000': 2, 'F9:1.0': true, 'TMR7777:BOOL': true, '09001': 3 })
+    expect(Object.values(results).map((result) => (result.ok ? 'written' : result.error.outcome))).toEqual([
+      'refused',
+      'written',
+      'refused',
+      'refused',
+      'written',
+    ])
+    expect([plc.byte(0, 0o4000), plc.byte(0, 0o4001)]).toEqual([2, 3])
+  })
+
+  test('of a refused number of several bytes nobody knows, and nothing behind it is sent', async () => {
+    start({ lists: false })
+    const results = await client.writeEach({ 'F9:0:INT': 1, '09000': 2 })
+    expect(Object.values(results)).toMatchObject([{ error: { outcome: 'unknown' } }, { error: { outcome: 'notSent' } }])
+  })
+
   test('bits of the system memory need readModifyWrite', async () => {
     start()
     plc.system[0o201] = 0b1000_0001
