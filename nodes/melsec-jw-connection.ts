@@ -1,7 +1,7 @@
 /** Node `melsec-jw-connection` (configuration): how to reach a PLC; its users share one client. */
 import type { Node, NodeAPI, NodeDef } from 'node-red'
 import { typeNames } from '../src/entry/address'
-import { type MelsecLine, type ProfileId, profileIds, profiles } from '../src/index'
+import { type MelsecClientOptions, type MelsecLine, type ProfileId, profileIds, profiles } from '../src/index'
 import { addressCheck } from './address-check'
 import { connectionOf, PlcConnection, setConnection } from './connection'
 import { LONGEST_PAUSE, optionsOf, settingsOf } from './connection-settings'
@@ -21,7 +21,7 @@ function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): PlcCo
     const current = readSettings({ ...stored }, migrations, texts)
     const resolve = resolverOf(RED, node, texts)
     const options = optionsOf(settingsOf(current, { texts, resolve }), texts, (id) => deployedLine(RED, id, texts))
-    return { ...options, ...secretsOf(node, resolve) }
+    return { ...options, ...(hasPassword(options) ? secretsOf(node, resolve) : {}) }
   })
   if (connection.failure !== undefined) node.error(connection.failure)
   node.on('close', (done: () => void) => {
@@ -38,6 +38,11 @@ function deployedLine(RED: NodeAPI, id: string, texts: Texts): MelsecLine {
   const line = lineOf(RED.nodes.getNode(id))
   if (line === undefined) throw refusal('NOT_CONFIGURED', texts('error.noLine'), { field: 'line' })
   return line.line
+}
+
+/** The CPUs that have a serial line themselves have none there, and the dialog has no field for it; one of another way may be stored. */
+function hasPassword({ line, profile }: MelsecClientOptions): boolean {
+  return line === undefined || (typeof profile === 'string' && profiles[profile].serial?.reach === 'c24')
 }
 
 /** What Node-RED keeps apart from the flow: the remote password. Without one the PLC has none. */
