@@ -121,7 +121,8 @@ function profileFor(
   return { profile: other?.profile ?? profile }
 }
 
-function pause(ms: number): Promise<void> {
+/** Waits. */
+export function pause(ms: number): Promise<void> {
   return new Promise((resolve) => {
     AbortSignal.timeout(ms).addEventListener('abort', () => resolve(), { once: true })
   })

@@ -1,6 +1,6 @@
 /**
  * `POST /melsec-jw/connection/test`: connects, asks the CPU who it is and measures the round trip.
- * `POST /melsec-jw/connection/find`: tries which frames and data codes are answered; on a serial line, which stations answer.
+ * `POST /melsec-jw/connection/find`: tries which frames and data codes are answered; on a serial line, which stations answer, else in which form.
  *
  * Body: `{ id, settings, line? }`: the connection node and its settings as they stand in the dialog, also before they are
  * deployed, and those of its serial line. So the host is whatever the user typed: whoever may call this may deploy flows that connect anywhere, and
@@ -15,7 +15,9 @@ import {
   type Identity,
   type MelsecClient,
   type MelsecClientOptions,
+  type MelsecOptions,
   type PlcError,
+  type PlcOnLine,
   ProtocolError,
   RequestError,
   TimeoutError,
@@ -28,7 +30,8 @@ import { isOnLine, LINE_PROFILE, optionsOf, settingsOf } from './connection-sett
 import { detailsOf, type FailureDetails } from './failure'
 import { type FailureCode, isBadAnswer } from './failure-code'
 import { resolverOf } from './fields'
-import { lineToTest } from './line-test'
+import { type AnsweringForm, answeringForms } from './form-find'
+import { lineToTest, type TestedLine } from './line-test'
 import type { StoredSettings } from './migration'
 import { type AnsweringStation, answeringStations, profileOnLine } from './station-find'
 import type { Texts } from './texts'
@@ -97,7 +100,7 @@ async function outcome(
   let peer = ''
   let port: number | undefined
   try {
-    const options = optionsIn(RED, id, body, texts)
+    const { options } = optionsIn(RED, id, body, texts)
     peer = peerOf(options)
     port = options.port
     const isLine = options.line !== undefined
@@ -152,6 +155,7 @@ function badAnswerBehind(error: unknown): boolean {
 type Found =
   | { readonly ok: true; readonly lines: readonly AnsweringLine[] }
   | { readonly ok: true; readonly stations: readonly AnsweringStation[] }
+  | { readonly ok: true; readonly station: number; readonly forms: readonly AnsweringForm[] }
   | { readonly ok: false; readonly message: string; readonly causes: readonly string[] }
 
 /** Which frames and data codes the PLC answers to, or which stations of a line answer. */
@@ -165,13 +169,9 @@ async function found(
   const id = typeof body.id === 'string' ? body.id : ''
   let peer = ''
   try {
-    const options = optionsIn(RED, id, body, texts, true)
+    const { options, tested } = optionsIn(RED, id, body, texts, true)
     peer = peerOf(options)
-    if (options.line !== undefined) {
-      const stations = await answeringStations(options, over)
-      if (stations.length > 0) return { ok: true, stations }
-      return { ok: false, message: texts('test.foundNoStation', { peer: options.line.description }), causes: [] }
-    }
+    if (options.line !== undefined) return await foundOnLine(options, tested, texts, over)
     const lines = await answeringLines(options, over)
     if (lines.length > 0) return { ok: true, lines }
     const causes = isUp(deployed(id)) ? [texts('error.entryHeld')] : []
@@ -182,14 +182,34 @@ async function found(
   }
 }
 
-/** @param searching many stations of a line are asked that are not there */
+async function foundOnLine(
+  options: MelsecOptions & PlcOnLine,
+  tested: TestedLine | undefined,
+  texts: Texts,
+  over: AbortSignal,
+): Promise<Found> {
+  const stations = await answeringStations(options, over)
+  if (stations.length > 0) return { ok: true, stations }
+  const message = texts('test.foundNoStation', { peer: options.line.description })
+  // Other forms need a port that nobody else has open.
+  if (tested === undefined || tested.isTaken()) return { ok: false, message, causes: [texts('test.lineInUse')] }
+  const forms = await answeringForms(options, tested.options, over)
+  return forms.length > 0
+    ? { ok: true, station: options.route?.station ?? 0, forms }
+    : { ok: false, message, causes: [] }
+}
+
+/**
+ * The client's options, and its line.
+ * @param searching many stations of a line are asked that are not there
+ */
 function optionsIn(
   RED: NodeAPI,
   id: string,
   body: StoredSettings,
   texts: Texts,
   searching = false,
-): ReturnType<typeof optionsOf> {
+): { readonly options: ReturnType<typeof optionsOf>; readonly tested?: TestedLine } {
   const settings = settingsOf(objectIn(body, 'settings'), {
     texts,
     resolve: resolverOf(RED, RED.nodes.getNode(id), texts),
@@ -197,9 +217,12 @@ function optionsIn(
   // The test is what finds the series out, so it does not need it.
   const usual = isOnLine(settings, texts) ? LINE_PROFILE : 'generic'
   const known = settings.profile === '' ? { ...settings, profile: usual } : settings
-  return optionsOf(known, texts, (line) =>
-    lineToTest(RED, { id: line, given: objectIn(body, 'line'), searching }, texts),
-  )
+  let tested: TestedLine | undefined
+  const options = optionsOf(known, texts, (line) => {
+    tested = lineToTest(RED, { id: line, given: objectIn(body, 'line'), searching }, texts)
+    return tested.line
+  })
+  return tested === undefined ? { options } : { options, tested }
 }
 
 /** The deployed connection has an entry of its PLC. */

@@ -4,13 +4,22 @@ import type { NodeAPI } from 'node-red'
 import { createMelsecLine, type MelsecLine, type MelsecLineOptions } from '../src/index'
 import { refusal } from './failure'
 import { resolverOf } from './fields'
-import { lineAt, lineOf } from './line'
+import { lineAt, lineOf, type PlcLine } from './line'
 import { lineOptionsOf, lineSettingsOf } from './line-settings'
 import type { StoredSettings } from './migration'
 import { type Texts, textsOf } from './texts'
 
 /** ms that a search waits for the first character of an answer on a line of its own: most of the stations are not there. */
 const SEARCH_ANSWER_TIME = 500
+
+/** What a test is made on. */
+export interface TestedLine {
+  readonly line: MelsecLine
+  /** What it is made of. */
+  readonly options: MelsecLineOptions
+  /** Whether the runtime has its port open. */
+  readonly isTaken: () => boolean
+}
 
 /**
  * @param id the line node
@@ -22,19 +31,25 @@ export function lineToTest(
   RED: NodeAPI,
   { id, given, searching }: { readonly id: string; readonly given: StoredSettings; readonly searching: boolean },
   texts: Texts,
-): MelsecLine {
+): TestedLine {
   const node = RED.nodes.getNode(id)
   const running = lineOf(node)
   if (Object.keys(given).length === 0) {
     if (running === undefined) throw refusal('NOT_CONFIGURED', texts('error.noLine'), { field: 'line' })
-    return running.line
+    return testedOf(running)
   }
   const context = { texts, labels: textsOf(RED, 'melsec-jw-line'), resolve: resolverOf(RED, node, texts) }
   const options = lineOptionsOf(lineSettingsOf(given, context), context)
-  if (running?.isLike(options) === true) return running.line
-  const line = createMelsecLine(searching ? hurried(options) : options)
-  if (lineAt(options) === undefined) return line
+  if (running?.isLike(options) === true) return testedOf(running)
+  const own = searching ? hurried(options) : options
+  const line = createMelsecLine(own)
+  if (lineAt(options) === undefined) return { line, options: own, isTaken: () => lineAt(options) !== undefined }
   throw refusal('PORT_UNAVAILABLE', texts('error.lineInUse', { line: line.description }), { field: 'line' })
+}
+
+function testedOf(running: PlcLine): TestedLine {
+  const { line, options = {} } = running
+  return { line, options: hurried(options), isTaken: () => running.isOpen }
 }
 
 function hurried(options: MelsecLineOptions): MelsecLineOptions {

@@ -87,6 +87,22 @@
     })
   }
 
+  /** Ways to speak that were answered: the line has them, for all of its stations. */
+  function showForms({ station, forms }) {
+    const box = resultBox('melsec-jw-good', 'fa-check-circle', 'test.foundForms')
+    forms.forEach((form) => {
+      const sum = melsecJw.text(form.sumCheck ? 'test.withSum' : 'test.withoutSum')
+      const what = [
+        melsecJw.text('test.station', { station }),
+        `${form.frame}`,
+        melsecJw.text('test.format', { format: form.messageFormat }),
+        sum,
+      ]
+      $('<div>').text(what.join(' · ')).appendTo(box)
+    })
+    $('<div class="melsec-jw-hint">').text(melsecJw.text('test.setInLine')).appendTo(box)
+  }
+
   function showResult(result) {
     const box = resultBox('melsec-jw-good', 'fa-check-circle', 'test.good')
     const cpu =
@@ -166,6 +182,7 @@
             askPlc('find', onLine ? 'test.findingStations' : 'test.finding', (found) => {
               if (!found.ok) showFailure(found)
               else if (found.stations) showStations(found.stations)
+              else if (found.forms) showForms(found)
               else showFound(node, found.lines)
             })
           })

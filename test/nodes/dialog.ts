@@ -55,6 +55,16 @@ export async function close(page: Page, button: 'ok' | 'cancel'): Promise<void> 
   await page.locator('.red-ui-tray').waitFor({ state: 'detached' })
 }
 
+/** Turns to a page of the dialog. The editor takes two clicks in quick succession for one, so it is clicked until it is there. */
+export async function turnTo(page: Page, tabs: string, number: number): Promise<void> {
+  const tab = page.locator(`#${tabs} > li`).nth(number)
+  for (let tries = 1; !(await tab.getAttribute('class'))?.split(' ').includes('active'); tries += 1) {
+    if (tries > 20) throw new Error(`page ${number} of the dialog does not open`)
+    await tab.locator('a').first().click()
+    await page.waitForTimeout(100)
+  }
+}
+
 export function property(page: Page, id: string, name: string): Promise<unknown> {
   return page.evaluate(
     ([node, field]) => (globalThis as unknown as Editor).RED.nodes.node(node ?? '')[field ?? ''],

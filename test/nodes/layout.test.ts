@@ -4,7 +4,7 @@ import type { Page } from 'playwright-core'
 import type { PlcSimulator } from '../../src/entry/simulator'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
 import { type NodeRed, startNodeRed } from '../support/node-red'
-import { close, edit, picture } from './dialog'
+import { close, edit, picture, turnTo } from './dialog'
 import { connectionTo, controlNode, fileNode, ondemandNode, readNode, requestNode, startPlc, writeNode } from './flow'
 import { lineNode, stationNode } from './line-flow'
 
@@ -107,7 +107,7 @@ describe.each(['en-US', 'ja', 'zh-CN'])('at 1024 pixels in %s', (locale) => {
   test('no field of the connection dialog lies beside its tray, on any of its pages', async () => {
     await edit(page, 'plc')
     for (const tab of [0, 1, 2]) {
-      await page.locator('#melsec-jw-tabs a').nth(tab).click()
+      await turnTo(page, 'melsec-jw-tabs', tab)
       await picture(page, `${locale} small connection ${tab}`)
       expect(await beside(page)).toEqual({ fields: expect.any(Number), beside: [] })
       if (tab === 0) expect(await page.locator('#node-config-input-port').isVisible()).toBe(true)
@@ -121,7 +121,7 @@ describe.each(['en-US', 'ja', 'zh-CN'])('at 1024 pixels in %s', (locale) => {
   ])('no field of the dialog of %s lies beside its tray, on any of its pages', async (_what, id, tabs, pages) => {
     await edit(page, id)
     for (let tab = 0; tab < pages; tab++) {
-      await page.locator(`#${tabs} a`).nth(tab).click()
+      await turnTo(page, tabs, tab)
       await picture(page, `${locale} small ${id} ${tab}`)
       const found = await beside(page)
       expect(found).toEqual({ fields: expect.any(Number), beside: [] })

@@ -95,6 +95,11 @@ describe('a line', () => {
     await other.close()
   })
 
+  test('a remote password that another way had is not sent to a CPU that has none', async () => {
+    await red.deploy([lineTo(line), stationNode(1, { credentials: { password: 'Secret-1' } }), readOf(1)])
+    expect(await value(1)).toBe(1)
+  })
+
   test('a station that is silent does not stop the other', async () => {
     await red.deploy([lineTo(line), stationNode(1), stationNode(9, { timeout: '300' }), readOf(1), readOf(9)])
     await red.status('read9', { fill: 'red', text: 'PLC is silent' })
@@ -270,6 +275,20 @@ describe('the test of a connection on a line', () => {
     const found = await run('find', asked)
     expect(found.body).toMatchObject({ ok: true, stations: [{ station: 1 }, { station: 2 }] })
     expect(await value(1)).toBe(1)
+  }, 60_000)
+
+  test('where no station answers the search tries other formats, unless the line is in use', async () => {
+    const other = await startLine({ messageFormat: 1, sumCheck: false, frames: ['3C'] })
+    const given = lineTo(other, { answerTime: '200', quiet: '20', betweenBytes: '50' })
+    const asked = { id: 'plc2', settings: stationNode(2, { timeout: '300' }), line: given }
+    const found = (await run('find', asked)).body
+    expect(found).toEqual({ ok: true, station: 2, forms: [{ frame: '3C', messageFormat: 1, sumCheck: false }] })
+    // One that asks nobody keeps the port open.
+    await red.deploy([given, stationNode(2, { probe: 'none' }), readOf(2)])
+    await red.status('read2', { fill: 'green' })
+    expect((await run('find', asked)).body).toMatchObject({ ok: false, causes: [expect.stringContaining('deployed')] })
+    await red.deploy([])
+    await other.close()
   }, 60_000)
 
   test('a port that cannot be opened, and no line', async () => {
