@@ -229,6 +229,51 @@ export type {
   SerialChannels,
   SpecialDevice,
 } from './melsec/serial-channels'
+export {
+  diffTags,
+  mergeTags,
+  type TagChange,
+  type TagConflict,
+  type TagDifference,
+  type TagFieldChange,
+  type TagMergeOptions,
+} from './tags/diff'
+export type { CellDelimiter } from './tags/files/cells'
+export type { CsvOptions } from './tags/files/csv'
+export { type TagFileEncoding, tagFileEncodings } from './tags/files/encoding'
+export { exportTags, type TagExport, type TagExportMessage, type TagExportOptions } from './tags/files/export'
+export { importTags } from './tags/files/import'
+export {
+  type TagFileKind,
+  type TagImport,
+  type TagImportOptions,
+  type TagMessage,
+  tagFileKinds,
+} from './tags/files/result'
+export {
+  problemsOfTags,
+  type ReadTagItem,
+  type TagCheckOptions,
+  type TagFacts,
+  type TagProblem,
+  textOfProblem,
+} from './tags/table/check'
+export { hasChanged, type TagValue, thresholdOf } from './tags/table/deadband'
+export { type MoveAddress, type TagMachine, tagsOfMachine } from './tags/table/machine'
+export { engineeringOf, type ScaledValue } from './tags/table/scaling'
+export { defineTags, type TagDefinition, type TagDefinitions, type TagTable, tagTable } from './tags/table/table'
+export {
+  type Deadband,
+  itemOfTag,
+  type Scaling,
+  type Tag,
+  type TagAccess,
+  type TagField,
+  type TagFields,
+  type TagItem,
+  tagFields,
+} from './tags/table/tag'
+export { type RawWrite, rawValueOf } from './tags/table/write'
 export type { Clock, TimerOptions } from './transport/clock'
 export { type BaudRate, baudRates, type SerialOptions } from './transport/serial'
 export { type SerialPortInfo, serialPorts } from './transport/serial-ports'

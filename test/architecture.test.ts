@@ -60,7 +60,7 @@ const ROOMS: Readonly<Record<string, readonly string[]>> = {
   'client/melsec': ['errors', 'basics', 'codec', 'link', 'melsec', 'value', 'transport', 'client'],
   simulator: ['errors', 'basics', 'codec', 'link', 'melsec', 'jw', 'value', 'transport'],
   'end-code': ['errors', 'basics', 'link', 'melsec', 'jw'],
-  index: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'transport', 'client', 'end-code'],
+  index: ['errors', 'codec', 'link', 'melsec', 'jw', 'value', 'tags', 'transport', 'client', 'end-code'],
   entry: ['errors', 'codec', 'melsec', 'jw', 'value', 'client', 'simulator'],
   cli: ['index', 'entry', 'basics'],
   nodes: ['index', 'entry', 'basics'],
@@ -244,17 +244,6 @@ const FOR_TESTS: readonly string[] = [
   'fromClassicAddress',
   'toClassicAddress',
   'advanceJw',
-  'thresholdOf',
-  'hasChanged',
-  'rawValueOf',
-  'textOfProblem',
-  'tagsOfMachine',
-  'defineTags',
-  'tagTable',
-  'importTags',
-  'exportTags',
-  'diffTags',
-  'mergeTags',
 ]
 
 /** Values that a file exports and nobody uses, the file itself included: dead, or kept for tests alone. */

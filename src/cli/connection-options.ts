@@ -86,6 +86,12 @@ export function addDigitOptions(command: Command): Command {
     .addOption(choice('--ascii-zr <digits>', 'ASCII code: digits of ZR', ['decimal', 'hexadecimal']))
 }
 
+export const xyRadixOption = () =>
+  new Option(
+    '--xy-radix <8|16>',
+    "X and Y are written in octal (8) or hexadecimal (16); default: the profile's",
+  ).argParser(radix)
+
 export const wRadixOption = () =>
   new Option(
     '--w-radix <10|16>',
@@ -118,12 +124,7 @@ export function addConnectionOptions(command: Command): Command {
   addCodeOptions(command)
   command
     .addOption(choice('--ascii-word-order <order>', 'labels in ASCII code: order of the words of a value', ORDERS))
-    .addOption(
-      new Option(
-        '--xy-radix <8|16>',
-        "X and Y are written in octal (8) or hexadecimal (16); default: the profile's",
-      ).argParser(radix),
-    )
+    .addOption(xyRadixOption())
     .addOption(wRadixOption())
     .addOption(new Option('--password', `ask for the remote password; without it ${PASSWORD} is used, if set`))
   addSerialLineOptions(command.optionsGroup('Serial line, also behind a device server:'))

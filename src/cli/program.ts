@@ -18,6 +18,7 @@ import { readCommand } from './read'
 import { requestCommand } from './request'
 import { rmCommand } from './rm'
 import { simulateCommand } from './simulate'
+import { tagsCommand } from './tags'
 import type { Terminal } from './terminal'
 import { writeCommand } from './write'
 
@@ -37,6 +38,7 @@ const COMMANDS: readonly MakeCommand[] = [
   rmCommand,
   listenCommand,
   simulateCommand,
+  tagsCommand,
   decodeCommand,
   profilesCommand,
   explainCommand,

@@ -53,6 +53,9 @@ async function commandsOf(): Promise<string[]> {
   return [...list.matchAll(/^ {2}(\w[\w-]*)/gm)].flatMap(([, name = '']) => (name === 'help' ? [] : [name]))
 }
 
+/** As a spreadsheet saves labels of GX Works3. */
+const LABELS = 'Label Name,Data Type,Assign (Device/Label),Comment\r\nLevel,Word [Signed],D100,level\r\n'
+
 describe('the line', () => {
   const bench = new Bench()
   const home = process.cwd()
@@ -61,6 +64,7 @@ describe('the line', () => {
     // Files of the reader's computer that the lines name.
     mkdirSync(join(folder, 'backup'))
     writeFileSync(join(folder, 'recipe.csv'), 'A,72.5,15\r\n')
+    writeFileSync(join(folder, 'labels.csv'), LABELS)
     process.chdir(folder)
     await bench.open()
   })

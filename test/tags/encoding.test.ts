@@ -1,7 +1,7 @@
 /** Which characters the bytes of a file are. */
 import { describe, expect, test } from '@jest/globals'
 import fc from 'fast-check'
-import { type FileEncoding, fileEncodings, fileOfText, textOfFile } from '../../src/tags/files/encoding'
+import { fileOfText, type TagFileEncoding, tagFileEncodings, textOfFile } from '../../src/tags/files/encoding'
 
 const texts: Readonly<Record<string, string>> = {
   'shift-jis': 'タンク１の水位\t運転中\r\nポンプ異常\t温度センサ\r\n',
@@ -11,7 +11,7 @@ const texts: Readonly<Record<string, string>> = {
 
 describe('without a mark', () => {
   test.each(Object.entries(texts))('%s is told by what it is made of', (encoding, text) => {
-    const bytes = fileOfText(text, encoding as FileEncoding)
+    const bytes = fileOfText(text, encoding as TagFileEncoding)
     expect(textOfFile(bytes, undefined)).toMatchObject({ text, encoding })
   })
 
@@ -64,7 +64,7 @@ describe('refused is', () => {
 
 test('what is written is read again, with the mark of Unicode or the encoding that is said', () => {
   fc.assert(
-    fc.property(fc.constantFrom(...fileEncodings), fc.string({ unit: 'grapheme' }), (encoding, given) => {
+    fc.property(fc.constantFrom(...tagFileEncodings), fc.string({ unit: 'grapheme' }), (encoding, given) => {
       const text = /^(shift-jis|gb18030|big5)$/.test(encoding) ? `${texts[encoding]}` : given
       expect(textOfFile(fileOfText(text, encoding), encoding).text).toBe(text)
     }),

@@ -5,7 +5,7 @@ import { show } from '../../basics/show'
 /** What stands between two cells. */
 export const delimiters = ['\t', ';', ','] as const
 /** See {@link delimiters}. */
-export type Delimiter = (typeof delimiters)[number]
+export type CellDelimiter = (typeof delimiters)[number]
 
 /** One row of a file. */
 export interface CellRow {
@@ -17,7 +17,7 @@ export interface CellRow {
 }
 
 /** The rows of a text; those without any character are left out. */
-export function rowsOf(text: string, delimiter: Delimiter): CellRow[] {
+export function rowsOf(text: string, delimiter: CellDelimiter): CellRow[] {
   const rows: CellRow[] = []
   let at = 0
   let line = 1
@@ -57,7 +57,7 @@ interface Cell {
   readonly fault?: string
 }
 
-function plain(text: string, from: number, delimiter: Delimiter): Cell {
+function plain(text: string, from: number, delimiter: CellDelimiter): Cell {
   let end = from
   while (end < text.length && text[end] !== delimiter && text[end] !== '\n' && text[end] !== '\r') end++
   return { value: text.slice(from, end), end }
@@ -82,7 +82,7 @@ export function tooManyCells(first: string): string {
 }
 
 /** Rows as text; with `all` every cell is quoted, else those that need it. Lines end as Windows has it. */
-export function textOfRows(rows: readonly (readonly string[])[], delimiter: Delimiter, all = false): string {
+export function textOfRows(rows: readonly (readonly string[])[], delimiter: CellDelimiter, all = false): string {
   const needs = new RegExp(`[${delimiter === '\t' ? '\\t' : delimiter}"\\r\\n]|^\\s|\\s$`)
   const cell = (text: string) => (all || needs.test(text) ? `"${text.replaceAll('"', '""')}"` : text)
   return rows.map((row) => `${row.map(cell).join(delimiter)}\r\n`).join('')

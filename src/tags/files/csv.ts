@@ -2,7 +2,7 @@
 import { show } from '../../basics/show'
 import { RequestError } from '../../errors'
 import type { Tag } from '../table/tag'
-import { type CellRow, type Delimiter, guarded, textOfRows, tooManyCells, unguarded } from './cells'
+import { type CellDelimiter, type CellRow, guarded, textOfRows, tooManyCells, unguarded } from './cells'
 import { type ColumnName, cellsOfTag, columnNamed, columnNames, columnOf, rowOfCells, type TagCells } from './columns'
 import { cellOfNumber, type DecimalSign, decimalSignOf, numberOfCell } from './numbers'
 import type { Draft, Drafts, TagMessage } from './result'
@@ -17,7 +17,7 @@ export function isCsvHeader(cells: readonly string[]): boolean {
  * @param rows from the heading on
  * @throws RequestError BAD_VALUE when two columns have the same header
  */
-export function draftsOfCsv(rows: readonly CellRow[], delimiter: Delimiter): Drafts {
+export function draftsOfCsv(rows: readonly CellRow[], delimiter: CellDelimiter): Drafts {
   const [head, ...body] = rows
   const names = (head?.cells ?? []).map(columnNamed)
   const twice = names.find((name, at) => name !== undefined && names.indexOf(name) !== at)
@@ -107,7 +107,7 @@ function cellValue(name: ColumnName, text: string, sign: DecimalSign): string | 
 /** How a CSV file is written. */
 export interface CsvOptions {
   /** What stands between two cells; `,` by default. With `;` numbers have a decimal comma, as the spreadsheets that expect it do. */
-  readonly delimiter?: Delimiter
+  readonly delimiter?: CellDelimiter
 }
 
 /** The text of a file with a heading and a row for each tag. Columns that no tag needs are left out, but for the first ones. */

@@ -9,21 +9,21 @@ import { show } from '../../basics/show'
 import { RequestError } from '../../errors'
 
 /** Character codes of files. GBK is read as GB18030, which holds it. */
-export const fileEncodings = ['utf-8', 'utf-16le', 'utf-16be', 'shift-jis', 'gb18030', 'big5'] as const
+export const tagFileEncodings = ['utf-8', 'utf-16le', 'utf-16be', 'shift-jis', 'gb18030', 'big5'] as const
 /** Character code of a file. */
-export type FileEncoding = (typeof fileEncodings)[number]
+export type TagFileEncoding = (typeof tagFileEncodings)[number]
 
 /** A file as text. */
 export interface FileText {
   /** Without the byte order mark. */
   readonly text: string
   /** Its character code. */
-  readonly encoding: FileEncoding
+  readonly encoding: TagFileEncoding
   /** Others that it may be as well: it was guessed. */
-  readonly alternatives: readonly FileEncoding[]
+  readonly alternatives: readonly TagFileEncoding[]
 }
 
-const MARKS: readonly (readonly [FileEncoding, readonly number[]])[] = [
+const MARKS: readonly (readonly [TagFileEncoding, readonly number[]])[] = [
   ['utf-8', [0xef, 0xbb, 0xbf]],
   ['utf-16le', [0xff, 0xfe]],
   ['utf-16be', [0xfe, 0xff]],
@@ -32,7 +32,7 @@ const MARKS: readonly (readonly [FileEncoding, readonly number[]])[] = [
 const unpaired = /\p{Surrogate}/u
 
 /** The text of the bytes in one code, or undefined when they are none. */
-function textIn(bytes: Buffer, encoding: FileEncoding): string | undefined {
+function textIn(bytes: Buffer, encoding: TagFileEncoding): string | undefined {
   switch (encoding) {
     case 'utf-8':
       return isUtf8(bytes) ? bytes.toString('utf8') : undefined
@@ -49,7 +49,7 @@ function textIn(bytes: Buffer, encoding: FileEncoding): string | undefined {
   }
 }
 
-type PageName = Extract<FileEncoding, 'shift-jis' | 'gb18030' | 'big5'>
+type PageName = Extract<TagFileEncoding, 'shift-jis' | 'gb18030' | 'big5'>
 
 interface Page {
   readonly page: CodePage
@@ -135,14 +135,14 @@ function detected(bytes: Buffer, isKnown: (text: string) => boolean): FileText |
  */
 export function textOfFile(
   given: Uint8Array,
-  encoding: FileEncoding | undefined,
+  encoding: TagFileEncoding | undefined,
   isKnown: (text: string) => boolean = () => false,
 ): FileText {
   const bytes = Buffer.from(given.buffer, given.byteOffset, given.length)
-  if (encoding !== undefined && !fileEncodings.includes(encoding)) {
+  if (encoding !== undefined && !tagFileEncodings.includes(encoding)) {
     throw new RequestError(
       'BAD_OPTION',
-      `encoding is ${show(encoding)}; it is ${fileEncodings.join(', ')}.`,
+      `encoding is ${show(encoding)}; it is ${tagFileEncodings.join(', ')}.`,
       'encoding',
     )
   }
@@ -160,7 +160,11 @@ export function textOfFile(
   if (known === undefined) {
     const found = detected(rest, isKnown)
     if (found !== undefined) return found
-    throw new RequestError('BAD_VALUE', `The bytes of the file are no text in ${fileEncodings.join(', ')}.`, 'encoding')
+    throw new RequestError(
+      'BAD_VALUE',
+      `The bytes of the file are no text in ${tagFileEncodings.join(', ')}.`,
+      'encoding',
+    )
   }
   const text = textIn(rest, known)
   if (text !== undefined) return { text, encoding: known, alternatives: [] }
@@ -171,7 +175,7 @@ export function textOfFile(
  * The bytes of a text, with a byte order mark where Unicode has one.
  * @throws RequestError BAD_VALUE for a character that the code does not have
  */
-export function fileOfText(text: string, encoding: FileEncoding): Buffer {
+export function fileOfText(text: string, encoding: TagFileEncoding): Buffer {
   const bytes = bytesOf(text, encoding)
   const foreign = Array.from(text).find((character) => textIn(bytesOf(character, encoding), encoding) !== character)
   if (foreign !== undefined) {
@@ -181,7 +185,7 @@ export function fileOfText(text: string, encoding: FileEncoding): Buffer {
   return Buffer.concat([Buffer.from(mark), bytes])
 }
 
-function bytesOf(text: string, encoding: FileEncoding): Buffer {
+function bytesOf(text: string, encoding: TagFileEncoding): Buffer {
   switch (encoding) {
     case 'utf-8':
       return Buffer.from(text, 'utf8')

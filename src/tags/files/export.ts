@@ -5,7 +5,7 @@ import { checkTags, type ReadTagItem, type TagFacts } from '../table/check'
 import { itemOfTag, type Tag, type TagField, tagFields } from '../table/tag'
 import { textOfRows } from './cells'
 import { type CsvOptions, csvOfTags } from './csv'
-import { type FileEncoding, fileOfText } from './encoding'
+import { fileOfText, type TagFileEncoding } from './encoding'
 import { gxWorks2Heading, gxWorks3Heading } from './gx-headers'
 import { gxNameOf } from './gx-type'
 import { type TagFileKind, tagFileKinds } from './result'
@@ -15,7 +15,7 @@ export interface TagExportOptions extends CsvOptions {
   /** What the file is to be. */
   readonly kind: TagFileKind
   /** Character code; without it UTF-16 for GX Works, UTF-8 for the others. */
-  readonly encoding?: FileEncoding
+  readonly encoding?: TagFileEncoding
   /** Knows devices and types; needed for files of GX Works. */
   readonly readItem?: ReadTagItem
 }

@@ -3,7 +3,7 @@ import { checkNames, isPlainObject, type OptionNames, oneOf } from '../../basics
 import { RequestError } from '../../errors'
 import { problemsOfTags } from '../table/check'
 import type { Tag } from '../table/tag'
-import { type CellRow, type Delimiter, delimiters, rowsOf } from './cells'
+import { type CellDelimiter, type CellRow, delimiters, rowsOf } from './cells'
 import { draftsOfCsv, isCsvHeader } from './csv'
 import { type FileText, textOfFile } from './encoding'
 import { gxKindOf, headingOf } from './gx-headers'
@@ -72,7 +72,7 @@ function doubtOf({ encoding, alternatives }: FileText): TagMessage[] {
 
 interface Content extends Drafts {
   readonly kind: TagFileKind
-  readonly delimiter?: Delimiter
+  readonly delimiter?: CellDelimiter
 }
 
 function contentOf(text: string, options: TagImportOptions): Content {
@@ -95,7 +95,7 @@ function contentOf(text: string, options: TagImportOptions): Content {
 
 interface FoundTable {
   readonly kind: Exclude<TagFileKind, 'json'>
-  readonly delimiter: Delimiter
+  readonly delimiter: CellDelimiter
   /** From the heading on. */
   readonly rows: readonly CellRow[]
 }
@@ -104,7 +104,7 @@ interface FoundTable {
 const MOST_TITLES = 4
 
 /** The table that the first delimiter with a heading makes. */
-function tableIn(text: string, given: Delimiter | undefined): FoundTable | undefined {
+function tableIn(text: string, given: CellDelimiter | undefined): FoundTable | undefined {
   for (const delimiter of given === undefined ? delimiters : [given]) {
     const top = rowsOf(firstLines(text), delimiter).slice(0, MOST_TITLES)
     for (const { line, cells } of top) {

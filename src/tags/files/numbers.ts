@@ -1,6 +1,6 @@
 /** Numbers in cells: with a decimal point or a decimal comma, as the spreadsheet of whoever saved the file has it. */
 import { show } from '../../basics/show'
-import type { Delimiter } from './cells'
+import type { CellDelimiter } from './cells'
 
 /** The sign in front of the decimals. */
 export type DecimalSign = '.' | ','
@@ -13,7 +13,7 @@ const DECIMAL = /^[-+]?\d*([.,])\d+(?:[eE][-+]?\d+)?$/
  * The decimal sign of all the numbers of a file. What can be nothing but a decimal sign decides, e.g. the comma of `0,5`; without one the
  * delimiter does: a spreadsheet with decimal commas writes semicolons between cells.
  */
-export function decimalSignOf(cells: Iterable<string>, delimiter: Delimiter): DecimalSign {
+export function decimalSignOf(cells: Iterable<string>, delimiter: CellDelimiter): DecimalSign {
   const seen = { '.': 0, ',': 0 }
   for (const cell of cells) {
     const [, sign] = OPEN.test(cell) ? [] : (DECIMAL.exec(cell) ?? [])

@@ -1,8 +1,8 @@
 /** What an import gives: every row is a tag, or a message says why it is none. */
 import type { TagCheckOptions } from '../table/check'
 import type { Tag } from '../table/tag'
-import type { Delimiter } from './cells'
-import type { FileEncoding } from './encoding'
+import type { CellDelimiter } from './cells'
+import type { TagFileEncoding } from './encoding'
 
 /** Files that are known. */
 export const tagFileKinds = ['csv', 'json', 'gxWorks3Labels', 'gxWorks2Labels', 'deviceComments'] as const
@@ -24,9 +24,9 @@ export interface TagImportOptions extends Omit<TagCheckOptions, 'where'> {
   /** What the file is; without it that is found out. */
   readonly kind?: TagFileKind
   /** Character code; without it that is found out. */
-  readonly encoding?: FileEncoding
+  readonly encoding?: TagFileEncoding
   /** What stands between two cells; without it that is found out. */
-  readonly delimiter?: Delimiter
+  readonly delimiter?: CellDelimiter
 }
 
 /** Tags of a file. */
@@ -34,9 +34,9 @@ export interface TagImport {
   /** What the file was read as. */
   readonly kind: TagFileKind
   /** Its character code. */
-  readonly encoding: FileEncoding
+  readonly encoding: TagFileEncoding
   /** What stands between its cells; of JSON nothing does. */
-  readonly delimiter?: Delimiter
+  readonly delimiter?: CellDelimiter
   /** The rows that are tags, in their order. */
   readonly tags: readonly Tag[]
   /** The others, and what is not kept of the file; in the order of its lines. */

@@ -8,7 +8,7 @@ import { checkTags, PLACEHOLDER, type TagCheckOptions } from './check'
 import type { Tag } from './tag'
 
 /** What makes one machine different from the others. */
-export interface Machine<Offset = number> {
+export interface TagMachine<Offset = number> {
   /** What stands in for `{station}` and others, by name. */
   readonly parameters?: Readonly<Record<string, string | number>>
   /** How far addresses move; what it looks like is for `move` to say. */
@@ -32,7 +32,7 @@ export type MoveAddress<Offset = number> = (address: string, offset: Offset) => 
  */
 export function tagsOfMachine<Offset = number>(
   rows: readonly Tag[],
-  machine: Machine<Offset>,
+  machine: TagMachine<Offset>,
   move?: MoveAddress<Offset>,
   options: Omit<TagCheckOptions, 'template'> = {},
 ): Tag[] {
@@ -68,7 +68,7 @@ export function tagsOfMachine<Offset = number>(
   return tags
 }
 
-function parameterOf(parameters: NonNullable<Machine['parameters']>, name: string, whole: string): string {
+function parameterOf(parameters: NonNullable<TagMachine['parameters']>, name: string, whole: string): string {
   const value = Object.hasOwn(parameters, name) ? parameters[name] : undefined
   if (typeof value === 'string' || Number.isSafeInteger(value)) return String(value)
   const found = value === undefined ? 'has no value' : `is a text or a whole number, not ${show(value)}`

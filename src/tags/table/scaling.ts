@@ -9,15 +9,21 @@ import { show } from '../../basics/show'
 import type { Scaling } from './tag'
 
 /** A value for people, or why there is none. */
-export type Scaled =
+export type ScaledValue =
   | {
+      /** Whether there is a value. */
       readonly ok: true
       /** In the unit of the tag. */
       readonly value: number
       /** It was beyond the limits, and is the limit now. */
       readonly clamped: boolean
     }
-  | { readonly ok: false; readonly reason: string }
+  | {
+      /** Whether there is a value. */
+      readonly ok: false
+      /** Why there is none. */
+      readonly reason: string
+    }
 
 interface Line {
   readonly from: readonly [number, number]
@@ -93,7 +99,7 @@ function linesOf(scaling: Scaling): { readonly there: Line; readonly back: Line 
  *
  * @example engineeringOf({ kind: 'linear', raw: [0, 4000], engineering: [0, 10] }, 1234)   // { ok: true, value: 3.085, clamped: false }
  */
-export function engineeringOf(scaling: Scaling, raw: number | bigint): Scaled {
+export function engineeringOf(scaling: Scaling, raw: number | bigint): ScaledValue {
   const number = Number(raw)
   if (!Number.isFinite(number)) return { ok: false, reason: `${show(raw)} in the PLC is no number that can be scaled.` }
   const { there } = linesOf(scaling)
