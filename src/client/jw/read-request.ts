@@ -14,6 +14,7 @@ import type { ReadPlace, ReadStepOf } from '../plan/planned-read'
 import type { RequestDescription, SendExchange } from '../plan/request'
 import type { ParsedJwItem } from './item'
 import { CELL, extendedIn, headIn, type JwPiece, type JwSpace } from './layout'
+import type { ListProof } from './list-proof'
 import type { JwProtocol } from './send-command'
 
 /** Cells in a row that are asked for, and what lies in them. */
@@ -74,6 +75,7 @@ export function jwReadStep(
   protocol: JwProtocol,
   draft: JwDraft,
   items: readonly (ParsedJwItem | undefined)[],
+  lists: ListProof,
 ): JwReadStep {
   const runs = draft.kind === 'row' ? [draft.run] : draft.runs
   const places: JwValuePlace[] = []
@@ -86,7 +88,7 @@ export function jwReadStep(
     }
     before += to - from
   }
-  const prepared = draft.kind === 'row' ? row(protocol, draft.run) : list(protocol, draft.runs)
+  const prepared = draft.kind === 'row' ? row(protocol, draft.run) : list(protocol, draft.runs, lists)
   return { prepared, pieces: runs.flatMap(({ pieces }) => pieces), places, draft }
 }
 
@@ -115,14 +117,24 @@ function row(protocol: JwProtocol, { space, from, to }: JwRun): JwPreparedRead {
   return { command, exchange, points, text, fetch: fetching(exchange, ({ data }) => ({ bytes: data })) }
 }
 
-function list(protocol: JwProtocol, runs: readonly JwRun[]): JwPreparedRead {
+function list(protocol: JwProtocol, runs: readonly JwRun[], lists: ListProof): JwPreparedRead {
   const command = jwCommands.monitorRegisters
   const items = runs.flatMap(({ space, from, to }) =>
     Array.from({ length: to - from }, (_, i) => ({ address: extendedIn(space, from + i) })),
   )
   const exchange = protocol.exchange(command, { items })
   const text = runs.map(({ space, from, to }) => rangeText(space, from, to)).join(', ')
-  const fetch = fetching(exchange, ({ values }) => ({ bytes: Uint8Array.from(values) }))
+  const asked = fetching(exchange, ({ values }) => ({ bytes: Uint8Array.from(values) }))
+  const fetch: JwPreparedRead['fetch'] = async (send) => {
+    try {
+      const cells = await asked(send)
+      lists.proved()
+      return cells
+    } catch (error) {
+      lists.failed(error)
+      throw error
+    }
+  }
   return { command, exchange, points: items.length, text: `${text}, ${items.length} bytes`, fetch }
 }
 

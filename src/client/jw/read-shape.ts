@@ -54,6 +54,11 @@ export class JwReadShape implements PlanShape<JwReadStep> {
   }
 
   get steps(): readonly JwReadStep[] {
+    if (!this.#parts.lists.mayBeUsed && this.#steps.some(({ draft }) => draft.kind === 'list')) {
+      this.#steps = this.#steps.flatMap((step) =>
+        step.draft.kind === 'list' ? this.#built(step.pieces, this.#parts.settings.gap) : [step],
+      )
+    }
     return this.#steps
   }
 
@@ -82,7 +87,7 @@ export class JwReadShape implements PlanShape<JwReadStep> {
   #built(pieces: readonly JwPiece[], gap: number): JwReadStep[] {
     const { limits, lists, protocol } = this.#parts
     const drafts = jwPacked(pieces, { limits, gap, lists: lists.mayBeUsed })
-    return drafts.map((draft) => jwReadStep(protocol, draft, this.#parsed))
+    return drafts.map((draft) => jwReadStep(protocol, draft, this.#parsed, lists))
   }
 
   mayHelp(refusal: EndCodeError): boolean {
@@ -108,7 +113,6 @@ export class JwReadShape implements PlanShape<JwReadStep> {
   }
 
   answered(step: JwReadStep): void {
-    if (step.draft.kind === 'list') this.#parts.lists.proved()
     if (this.#refusals.size === 0) return
     this.#hopeless.delete(step)
     for (const { item } of step.pieces) this.#refusals.delete(item)

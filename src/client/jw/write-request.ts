@@ -118,7 +118,9 @@ function registers(context: JwWriteContext, units: readonly JwWriteUnit[]): JwWr
   )
   const command = jwCommands.writeRegisters
   const exchange = context.protocol.exchange(command, { items })
-  return listed(context, units, { command, exchange, points: items.length, text: textOf(units, items.length) })
+  const single = units.map((unit) => row(context.protocol, [unit]))
+  const prepared = { command, exchange, points: items.length, text: textOf(units, items.length) }
+  return listed(context, units, prepared, single)
 }
 
 function textOf(units: readonly JwWriteUnit[], count: number): string {
@@ -128,7 +130,7 @@ function textOf(units: readonly JwWriteUnit[], count: number): string {
 
 /** One relay, or a list of them. */
 function relays(context: JwWriteContext, units: readonly JwWriteUnit[]): JwWriteStep {
-  const { protocol, lists } = context
+  const { protocol } = context
   const bits = units.flatMap((unit) => bitsOfUnit(unit).map((bit) => ({ ...bit, space: unit.space })))
   const single = bits.map(({ space, address, bit, value }): JwPrepared => {
     const command = jwCommands.setRelay
@@ -141,47 +143,44 @@ function relays(context: JwWriteContext, units: readonly JwWriteUnit[]): JwWrite
   const items = bits.map(({ space, address, bit, value }) => ({ address: extendedIn(space, address), bit, value }))
   const exchange = protocol.exchange(command, { items })
   const relayTexts = bits.map(({ space, address, bit }) => bitText(space, address, bit)).join(', ')
-  const step = listed(context, units, {
-    command,
-    exchange,
-    points: items.length,
-    text: `${relayTexts}, ${items.length} relays`,
-  })
-  return {
-    ...step,
-    // The PLC has turned out to have no lists since this was planned.
-    perform: (send) => (lists.mayBeUsed ? step.perform(send) : oneByOne(single, send)),
-  }
+  const text = `${relayTexts}, ${items.length} relays`
+  return listed(context, units, { command, exchange, points: items.length, text }, single)
 }
 
 function bitText(space: JwSpace, address: number, bit: number): string {
   return `${rangeText(space, address, address + 1)}.${bit}`
 }
 
-/** @throws UnfinishedError when one fails behind others that were set */
-async function oneByOne(relays: readonly JwPrepared[], send: SendExchange): Promise<void> {
-  for (const [at, { exchange, text }] of relays.entries()) {
+/** @throws UnfinishedError when one fails behind others that were written */
+async function oneByOne(single: readonly JwPrepared[], send: SendExchange): Promise<void> {
+  for (const [at, { exchange, text }] of single.entries()) {
     try {
       await send(exchange)
     } catch (error) {
       if (!(error instanceof PlcError) || at === 0) throw error
-      throw new UnfinishedError(
-        `The first ${at} of ${relays.length} relays were written, and then not ${text}: ${error.message}`,
-        error,
-      )
+      const message = `The first ${at} of ${single.length} requests were carried out, and then not ${text}: ${error.message}`
+      throw new UnfinishedError(message, error)
     }
   }
 }
 
-/** A list: nothing is written by one before one was read, which shows how the PLC understands them. */
-function listed({ protocol, lists }: JwWriteContext, units: readonly JwWriteUnit[], prepared: JwPrepared): JwWriteStep {
+/**
+ * A list: nothing is written by one before one was read, which shows how the PLC understands them.
+ * @param single the same one by one, where the PLC has turned out to have no lists since this was planned
+ */
+function listed(
+  { protocol, lists }: JwWriteContext,
+  units: readonly JwWriteUnit[],
+  prepared: JwPrepared,
+  single: readonly JwPrepared[],
+): JwWriteStep {
   const proof = proofOf(protocol, units)
   return {
     units,
     prepared: [prepared],
     isList: true,
     perform: async (send) => {
-      if (!lists.mayBeUsed) throw refusedBefore(lists.refusal, prepared)
+      if (!lists.mayBeUsed) return oneByOne(single, send)
       if (!lists.isProved) await prove(lists, proof, prepared, send)
       await send(prepared.exchange)
     },
@@ -206,20 +205,22 @@ async function prove(
   send: SendExchange,
 ): Promise<void> {
   try {
-    await beforeWriting(send(proof))
+    await send(proof)
     lists.proved()
   } catch (error) {
-    if (!(error instanceof EndCodeError)) throw error
+    if (!(error instanceof EndCodeError)) {
+      lists.failed(error)
+      return beforeWriting(Promise.reject(error))
+    }
     lists.refusedBy(error)
     throw refusedBefore(error, prepared)
   }
 }
 
 /** Nothing was written, and each item may be written alone. */
-function refusedBefore(cause: EndCodeError | undefined, { command }: JwPrepared): EndCodeError {
-  const why = cause?.message ?? 'Lists are not used.'
+function refusedBefore({ endCode, message: why }: EndCodeError, { command }: JwPrepared): EndCodeError {
   const message = `${command.title} was not sent, because the PLC did not read a list of what it writes. ${why}`
-  return new EndCodeError(cause?.endCode ?? 0, message, {
+  return new EndCodeError(endCode, message, {
     family: 'jw',
     about: 'item',
     carriedOut: false,

@@ -4,7 +4,7 @@ import type { JwClient } from '../../../src/client/jw/client'
 import type { JwClientOptions } from '../../../src/client/jw/options'
 import type { PlcClient, ReadValue } from '../../../src/index'
 import { assumedJwAreas } from '../../../src/jw/operand/area'
-import { brief, failureOf } from '../line'
+import { brief, failureOf, until } from '../line'
 import { inMemory, SmallJw } from './small-jw'
 
 let client: JwClient
@@ -169,6 +169,33 @@ describe('reading', () => {
     plc.files.get(2)?.set([3], 0)
     expect(await client.readValues(['09000', 'F2:0'])).toEqual([0, 3])
     expect(plc.asked).toEqual(['monitorRegisters'])
+  })
+})
+
+describe('a PLC that writes the marker otherwise and says nothing to the first list', () => {
+  test('is read without lists from then on, also by plans that were made before', async () => {
+    start({ timeout: 100 }, new SmallJw('stream', { marker: 'each' }))
+    const plan = client.plan(['09000', 'F2:0'])
+    const before = client.plan(['F2:1', 'F3:0'])
+    expect((await plan.run()).map(brief)).toEqual(['TIMEOUT', 'TIMEOUT'])
+    await until(() => client.state.name === 'connected')
+    expect((await plan.run({ timeout: 5000 })).map(brief)).toEqual([0, 0])
+    expect((await before.run({ timeout: 5000 })).map(brief)).toEqual([0, 0])
+    expect(plan.describe().notes.join()).toContain('try the other marker')
+  })
+
+  test('is written without lists from then on, and nothing was sent before', async () => {
+    start({ timeout: 100 }, new SmallJw('stream', { marker: 'each' }))
+    const values = { '09000': 1, 'F2:0': 2 }
+    const before = client.planWrite([
+      { item: '09001', value: 3 },
+      { item: 'F2:1', value: 4 },
+    ])
+    expect(await failureOf(client.write(values))).toMatchObject({ outcome: 'notSent' })
+    await until(() => client.state.name === 'connected')
+    await client.write(values, { timeout: 5000 })
+    await before.run({ timeout: 5000 })
+    expect([plc.byte(0, 0o4000), plc.byte(2, 0), plc.byte(0, 0o4001), plc.byte(2, 1)]).toEqual([1, 2, 3, 4])
   })
 })
 
