@@ -2,10 +2,11 @@
 import { badOption, checkBooleans, checkNames, isPlainObject, oneOf, wholeNumber } from '../../basics/option-checks'
 import { show } from '../../basics/show'
 import { RequestError } from '../../errors'
+import type { JwAddress } from '../../jw/address'
 import type { JwKindName } from '../../jw/operand/kind'
-import type { JwOperandOptions } from '../../jw/operand/map'
+import { BITS, type JwOperandOptions, positionIn, rowWith } from '../../jw/operand/map'
 import { readOperand } from '../../jw/operand/notation'
-import { jwAddressOf, placeOfJw } from '../../jw/operand/place'
+import { jwAddressOf } from '../../jw/operand/place'
 import { type TimerAttribute, timerAttributes } from '../../jw/operand/timer'
 import { Refusal } from '../refusal'
 import type { Files } from './files'
@@ -129,15 +130,12 @@ export class Timers {
     if (kind !== 'MD' && direction === 'down') this.setValue(number, preset)
   }
 
-  /** Where its two bytes are. */
-  #placeOf(number: number): ReturnType<typeof jwAddressOf> | undefined {
-    try {
-      const place = placeOfJw({ kind: 'b', number: 2 * number }, this.#options)
-      return place.in === 'file' ? jwAddressOf(place, 'basic') : undefined
-    } catch (error) {
-      if (error instanceof RequestError) return undefined
-      throw error
-    }
+  /** Where its two bytes are, as far as anybody says it. */
+  #placeOf(number: number): JwAddress | undefined {
+    const row = rowWith('b', 2 * number, this.#options)
+    if (row === undefined || 2 * number + 1 > row.last) return undefined
+    const address = positionIn(row, 2 * number) / BITS
+    return jwAddressOf({ in: 'file', file: row.file, address }, 'extended')
   }
 }
 
