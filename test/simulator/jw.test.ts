@@ -113,10 +113,10 @@ describe('it answers', () => {
 
 describe('what stands in front of a message', () => {
   const relay = { pda: 1, psa: 2, slot: 3, station: 4 } as const
-  const RELAY = '00 00 00 00 01 02 60 03 04 40' + '00'.repeat(30)
+  const RELAY = `00 00 00 00 01 02 60 03 04 40${'00'.repeat(30)}`
   const TURNED = `${'00 00 00 00 02 01 60 03 04 40'.replaceAll(' ', '')}${'00'.repeat(30)}`
   const E9 = '47 00 E9'
-  const OK = '4500E902'.replace('02', '00') + '02'
+  const OK = '4500E90002'
 
   test.each([
     ['any', '', OK],
@@ -252,7 +252,7 @@ describe('it tells', () => {
     const { plc, asker } = joinJw({ writeMode: 0 })
     const told: string[] = []
     plc.on('request', ({ command, endCode, message }) =>
-      told.push(`${command} ${endCode} ${JSON.stringify(message?.['password'])}`),
+      told.push(`${command} ${endCode} ${JSON.stringify(message?.password)}`),
     )
     plc.on('write', ({ command }) => told.push(`write ${command}`))
     plc.on('connection', ({ change }) => told.push(change))
