@@ -127,9 +127,12 @@ export type { SerialFrameDetails, SerialLineFormat, SerialPortOptions } from './
 export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
-export type { PlcClient, PlcEvents } from './client/plan/plc-client'
+export type { PlcClient, PlcEvents, WatchedIn } from './client/plan/plc-client'
 export type { PlanDescription, RequestDescription } from './client/plan/request'
 export type { WriteCallOptions, WriteOptions } from './client/plan/write'
+export type { WatchDeadband } from './client/watch/deadband'
+export type { Watch, WatchedName, WatchGap, WatchOptions, WatchStatistics, WatchUpdate } from './client/watch/watch'
+export type { WatchedValue } from './client/watch/watched-value'
 export type { DataCode, Declaration, Effect, MessageInput, MessageOf, Shape } from './codec/codec'
 export {
   type ExplainCodeOptions,

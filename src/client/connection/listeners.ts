@@ -73,14 +73,15 @@ export class Listeners<Events extends object> {
         const call = entry.listener as Listener<Events, E>
         call(value)
       } catch (error) {
-        // A listener's mistake must not stop the connection beside a running machine; it must not go unseen either.
-        // As text: an error of another realm (a sandbox) would be refused.
-        const detail = error instanceof Error ? error.stack : undefined
-        process.emitWarning(
-          `A listener of the event ${String(event)} failed. ${String(error)}`,
-          detail === undefined ? {} : { detail },
-        )
+        listenerFailed(`A listener of the event ${String(event)}`, error)
       }
     }
   }
+}
+
+/** A listener's mistake must not stop the connection beside a running machine; it must not go unseen either. */
+export function listenerFailed(what: string, error: unknown): void {
+  // As text: an error of another realm (a sandbox) would be refused.
+  const detail = error instanceof Error ? error.stack : undefined
+  process.emitWarning(`${what} failed. ${String(error)}`, detail === undefined ? {} : { detail })
 }

@@ -29,8 +29,11 @@ import {
   writeItem,
 } from '../plan/item-calls'
 import type { ReadPlan, WritePlan } from '../plan/plans'
+import type { WatchedIn } from '../plan/plc-client'
 import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
+import type { Watch, WatchOptions } from '../watch/watch'
+import { Watching } from '../watch/watching'
 import { type JwBuffers, jwBuffers } from './buffers'
 import type { JwClient, JwClientEvents, JwInfo, JwItemTypes, JwMemorySize } from './client'
 import { type JwClock, jwClock } from './clock'
@@ -56,6 +59,8 @@ const asyncDispose: typeof Symbol.asyncDispose = Symbol.asyncDispose ?? Symbol.f
 const EVENTS = { state: true, trace: true } as const satisfies Record<keyof JwClientEvents, true>
 const LOOPBACK = Buffer.from('0123456789ABCDEF')
 
+type Watched<L extends Items> = WatchedIn<JwItemTypes, L>
+
 export class JwPlcClient implements JwClient {
   readonly #settings: JwSettings
   readonly #protocol: JwProtocol
@@ -66,6 +71,7 @@ export class JwPlcClient implements JwClient {
   readonly #turns = new WriteTurns()
   readonly #items: JwItemAccess
   readonly #parts: JwCallParts
+  readonly #watching: Watching
   readonly options: JwClientOptions
   readonly control: JwControl
   readonly clock: JwClock
@@ -112,6 +118,7 @@ export class JwPlcClient implements JwClient {
       call: (call) => this.#call(call),
       permit: (effect, title) => this.#permit(effect, title),
     })
+    this.#watching = new Watching(this.#items, settings.clock)
   }
 
   get state(): ConnectionState {
@@ -142,6 +149,7 @@ export class JwPlcClient implements JwClient {
   #changed(state: ConnectionState): void {
     // What a trace was putting together does not go on behind another connection.
     if (state.name !== 'connected') this.#tracer.reset()
+    this.#watching.stateChanged(state)
     this.#listeners.tell('state', state)
   }
 
@@ -150,6 +158,7 @@ export class JwPlcClient implements JwClient {
   }
 
   async close(): Promise<void> {
+    this.#watching.close()
     this.#connection.close()
   }
 
@@ -176,6 +185,11 @@ export class JwPlcClient implements JwClient {
   plan<const L extends Items>(items: L): ReadPlan<ResultsIn<JwItemTypes, L>>
   plan(items: Items): ReadPlan<unknown> {
     return planItems(this.#items, items)
+  }
+
+  watch<const L extends Items>(items: L, options: WatchOptions<Watched<L>>): Watch<Watched<L>>
+  watch(items: Items, options: object): unknown {
+    return this.#watching.open(items, options)
   }
 
   explain(item: Item): JwItemExplanation {

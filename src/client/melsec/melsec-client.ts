@@ -18,6 +18,7 @@ import type { Statistics } from '../connection/statistics'
 import { Tracer } from '../connection/trace'
 import { FileAccess, type Files } from '../file/files'
 import { checkRequest, isItem, isList } from '../item/input-checks'
+import type { MelsecItems } from '../item/item-typing'
 import type {
   ItemInput,
   ItemInputs,
@@ -45,8 +46,11 @@ import {
 } from '../plan/item-calls'
 import { type Monitor, namedMonitor, Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
+import type { WatchedIn } from '../plan/plc-client'
 import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
+import type { Watch, WatchOptions } from '../watch/watch'
+import { Watching } from '../watch/watching'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
 import type { MelsecClient } from './client'
 import type { ClientEvents } from './client-events'
@@ -85,6 +89,8 @@ const EVENTS = {
   unsolicited: true,
 } as const satisfies Record<keyof ClientEvents, true>
 
+type Watched<L extends Items> = WatchedIn<MelsecItems, L>
+
 export class MelsecPlcClient implements MelsecClient {
   readonly #settings: Settings
   readonly #protocol: ClientProtocol
@@ -97,6 +103,7 @@ export class MelsecPlcClient implements MelsecClient {
   readonly #items: ItemAccess
   readonly #files: FileAccess
   readonly #password: RemotePassword
+  readonly #watching: Watching
   readonly options: Omit<MelsecClientOptions, 'password'>
   readonly control: Control
   readonly labels: Labels
@@ -165,6 +172,7 @@ export class MelsecPlcClient implements MelsecClient {
       call: (call) => this.#call(call),
       permit: (effect, title) => this.#permit(effect, title),
     })
+    this.#watching = new Watching(this.#items, clock)
     this.memory = memoryOf(this.#send)
     this.#files = new FileAccess(
       filePartsOf({
@@ -224,6 +232,7 @@ export class MelsecPlcClient implements MelsecClient {
   #changed(state: ConnectionState): void {
     // What a trace was putting together does not go on behind another connection.
     if (state.name !== 'connected') this.#tracer.reset()
+    this.#watching.stateChanged(state)
     this.#listeners.tell('state', state)
   }
 
@@ -232,6 +241,7 @@ export class MelsecPlcClient implements MelsecClient {
   }
 
   async close(): Promise<void> {
+    this.#watching.close()
     const released = this.#files.release()
     if (released !== undefined) await this.#soon(released)
     const lock = this.#password.lock()
@@ -326,6 +336,11 @@ export class MelsecPlcClient implements MelsecClient {
   monitor<const L extends Items>(items: L): Monitor<ItemResults<L>>
   monitor(items: Items): Monitor<unknown> {
     return isList(items) ? this.#items.monitor(items) : namedMonitor(items, (list) => this.#items.monitor(list))
+  }
+
+  watch<const L extends Items>(items: L, options: WatchOptions<Watched<L>>): Watch<Watched<L>>
+  watch(items: Items, options: object): unknown {
+    return this.#watching.open(items, options)
   }
 
   async request<C extends Command>(

@@ -14,8 +14,13 @@ import type {
 } from '../item/item-typing'
 import type { Items } from '../item/item-value'
 import type { Item } from '../item/parts'
+import type { Watch, WatchOptions } from '../watch/watch'
+import type { WatchedValue } from '../watch/watched-value'
 import type { ReadPlan, WritePlan } from './plans'
 import type { WriteCallOptions, WriteOptions, WriteResult } from './write'
+
+/** Watched values, in their order or by their names. */
+export type WatchedIn<T extends ItemTyping, L> = { readonly [K in keyof L]: WatchedValue<ValueIn<T, L[K]>> } & unknown
 
 /** What every client tells those who listen. */
 export interface PlcEvents {
@@ -74,6 +79,15 @@ export interface PlcClient<Events extends PlcEvents = PlcEvents, T extends ItemT
    * @example const { level } = await plc.plan({ level: 'D100:REAL', start: 'M0' }).run()
    */
   plan<const L extends Items>(items: L): ReadPlan<ResultsIn<T, L>>
+
+  /**
+   * Reads items again and again until the watch is closed, and tells what has changed: `for await`, or `onChange`. The first values
+   * come at once. All watches of a client are read together: what is due at the same instant, by one plan, behind writes and other
+   * reads.
+   * @throws RequestError BAD_OPTION or BAD_ADDRESS; ClosedError when the client is closed
+   * @example for await (const { values } of plc.watch({ level: 'D100:REAL' }, { every: 100 })) console.log(values.level.value)
+   */
+  watch<const L extends Items>(items: L, options: WatchOptions<WatchedIn<T, L>>): Watch<WatchedIn<T, L>>
 
   /** Writes many items as `writeValues`. @example await plc.write({ 'D200:REAL': 71.5, M10: true }) */
   write<const L extends readonly Item[], A extends string>(
