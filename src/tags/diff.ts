@@ -6,7 +6,7 @@
  */
 import { show } from '../basics/show'
 import { RequestError } from '../errors'
-import { formatType, parseType } from '../value/type'
+import { formatByteType, parseByteType } from '../value/byte-type'
 import {
   checkTags,
   problemsOfTags,
@@ -239,11 +239,11 @@ function conflictOf(tag: Tag, imported: Tag, after: Tag, options: TagCheckOption
 function typeTextOf(tag: Tag, { readItem }: TagCheckOptions): string | undefined {
   if (readItem !== undefined) {
     const type = factsOf(tag, readItem)?.type
-    return type === undefined ? undefined : formatType(type)
+    return type === undefined ? undefined : formatByteType(type)
   }
   try {
     const text = tag.type ?? /:([^:[]*)/.exec(tag.address.replace(/^\s*label:/i, ''))?.[1]
-    return text === undefined ? undefined : formatType(parseType(text))
+    return text === undefined ? undefined : formatByteType(parseByteType(text))
   } catch (error) {
     if (!(error instanceof RequestError)) throw error
     return undefined

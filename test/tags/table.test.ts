@@ -1,11 +1,14 @@
 /** Tables of tags: checked as a whole, found by name, reused for many machines. */
 import { describe, expect, test } from '@jest/globals'
 import { parseItem } from '../../src/client/item/item'
+import { parseJwItem } from '../../src/client/jw/item'
 import { RequestError } from '../../src/errors'
 import { problemsOfTags, type ReadTagItem, textOfProblem } from '../../src/tags/table/check'
 import { type MoveAddress, tagsOfMachine } from '../../src/tags/table/machine'
 import { defineTags, tagTable } from '../../src/tags/table/table'
 import { itemOfTag, type Tag } from '../../src/tags/table/tag'
+import { rawValueOf } from '../../src/tags/table/write'
+import { parseByteType } from '../../src/value/byte-type'
 
 /** As a client of an iQ-R would hand it in. */
 const readItem: ReadTagItem = (item) => parseItem(item, { xyRadix: 16 })
@@ -96,6 +99,19 @@ describe('a row is', () => {
   })
 })
 
+describe('of another family', () => {
+  const readJw: ReadTagItem = (item) => parseJwItem(item, {})
+
+  test('types of one byte are types, with their limits', () => {
+    const row = { name: 'a', address: '09000', type: 'BYTE', access: 'readWrite', max: 300 } as const
+    expect(problemsOfTags([row], { readItem: readJw })).toEqual([])
+    expect(problemsOfTags([row])).toEqual([])
+    expect(rawValueOf(row, parseByteType('BYTE'), undefined, 255)).toEqual({ raw: 255, value: 255 })
+    expect(() => rawValueOf(row, parseByteType('BYTE'), undefined, 256)).toThrow(/256 is not from 0 to 255, as BYTE is/)
+    expect(problem({ ...row, address: 'D100' }, { readItem: readJw })).toMatch(/D100/)
+  })
+})
+
 describe('a table', () => {
   test('has one message for each bad row, with all that is wrong with it', () => {
     const rows = [tag({ min: 5, max: 4, units: 'm' }), tag({ name: 'good' }), tag({ name: 'Ｌevel', count: -1 })]
@@ -175,6 +191,7 @@ describe('for many machines', () => {
       { name: 'm3.speed', address: 'Line3.Speed', scanClass: 'fast' },
     ])
     expect(problemsOfTags(rows, { template: true, readItem })).toEqual([])
+    expect(problem({ ...rows[0], type: 'REEL' }, { template: true })).toMatch(/'REEL' is not a type/)
   })
 
   test('addresses move as their family says', () => {

@@ -1,6 +1,7 @@
 /** Tags as files: CSV and JSON hold all of them; those for GX Works hold what it knows, and the rest is told. */
 import { checkNames, type OptionNames, oneOf } from '../../basics/option-checks'
 import { RequestError } from '../../errors'
+import { isWordType } from '../../value/byte-type'
 import { checkTags, type ReadTagItem, type TagFacts } from '../table/check'
 import { itemOfTag, type Tag, type TagField, tagFields } from '../table/tag'
 import { textOfRows } from './cells'
@@ -119,7 +120,7 @@ function rowOf(tag: Tag, kind: GxKind, readItem: ReadTagItem): GxRow {
     return 'Its name is no label name: these are letters, digits and underscores, and do not begin with a digit.'
   }
   if (device === undefined) return 'It is a label of the PLC already.'
-  const dataType = type === undefined ? undefined : gxNameOf(type, facts.count)
+  const dataType = type !== undefined && isWordType(type) ? gxNameOf(type, facts.count) : undefined
   if (dataType === undefined) return `GX Works has no data type for ${type?.name ?? 'it'} that takes the same words.`
   return {
     Class: 'VAR_GLOBAL',

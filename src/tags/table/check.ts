@@ -4,8 +4,8 @@ import { isPlainObject } from '../../basics/option-checks'
 import { show } from '../../basics/show'
 import { shortened } from '../../basics/typed-text'
 import { RequestError } from '../../errors'
+import { type ByteType, parseByteType } from '../../value/byte-type'
 import { checkFormat } from '../../value/format'
-import { parseType, type ValueType, valueTypes } from '../../value/type'
 import {
   deadbandKinds,
   itemOfTag,
@@ -16,11 +16,12 @@ import {
   tagAccesses,
   tagFields,
 } from './tag'
+import { isNumberType } from './type'
 
 /** What a family of PLCs knows of the item of a tag. */
 export interface TagFacts {
   /** Type of one value. A label may have none here: its PLC says it. */
-  readonly type?: ValueType
+  readonly type?: ByteType
   /** Values of an array. */
   readonly count?: number
   /** The address alone, without type and count, as the tools of the family write it; missing for a label. */
@@ -251,8 +252,8 @@ function checkMeaning(tag: Tag, { readItem, template = false }: TagCheckOptions,
     tell('deadband', 'A deadband in percent needs a range: a scaling, or min and max.')
   }
   checkWithin(tag, tell)
-  if (template) return
-  const facts = factsOf(tag, readItem, tell)
+  // Of a template the addresses are not there yet, but types are.
+  const facts = factsOf(tag, template ? undefined : readItem, tell)
   if (facts?.type !== undefined) checkType(tag, facts.type, tell)
   if (facts?.readOnly !== undefined && tag.access === 'readWrite') tell('access', facts.readOnly)
 }
@@ -275,7 +276,7 @@ function factsOf(tag: Tag, readItem: ReadTagItem | undefined, tell: Tell): TagFa
   const { type } = tag
   if (type === undefined) return undefined
   return refusal(
-    () => ({ type: parseType(type) }),
+    () => ({ type: parseByteType(type) }),
     (message) => tell('type', message),
   )
 }
@@ -291,9 +292,8 @@ function refusal<T>(run: () => T, tell: (message: string, error: RequestError) =
   }
 }
 
-function checkType(tag: Tag, type: ValueType, tell: Tell): void {
-  const { kind } = valueTypes[type.name]
-  if (kind !== 'bit' && kind !== 'text') return
+function checkType(tag: Tag, type: ByteType, tell: Tell): void {
+  if (isNumberType(type)) return
   for (const field of ['scaling', 'deadband', 'min', 'max'] as const) {
     if (tag[field] !== undefined) tell(field, `${type.name} is no number: leave ${field} out.`)
   }

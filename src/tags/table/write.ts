@@ -5,10 +5,12 @@
 import { show } from '../../basics/show'
 import { RequestError, type RequestErrorCode } from '../../errors'
 // Not by the public names of the room: tables are checked in browsers, too.
-import { formatType, type PlcValue, type ValueType, valueTypes } from '../../value/type'
+import { type ByteType, formatByteType } from '../../value/byte-type'
+import type { PlcValue } from '../../value/type'
 import type { TagValue } from './deadband'
 import { engineeringOf, limitOf, rawOf } from './scaling'
 import type { Tag } from './tag'
+import { infoOf } from './type'
 
 /** What is to be written, and what will be read of it. */
 export interface RawWrite {
@@ -31,7 +33,7 @@ export interface RawWrite {
  * @example rawValueOf({ name: 'level', address: 'D100', access: 'readWrite', scaling: { kind: 'linear', raw: [0, 4000], engineering: [0, 10] } },
  *   { name: 'INT' }, undefined, 3.085)   // { raw: 1234, value: 3.085 }
  */
-export function rawValueOf(tag: Tag, type: ValueType, count: number | undefined, value: TagValue): RawWrite {
+export function rawValueOf(tag: Tag, type: ByteType, count: number | undefined, value: TagValue): RawWrite {
   const fail: Fail = (code, message) => {
     throw new RequestError(code, `${tag.name} (${tag.address}): ${message}`, tag.name)
   }
@@ -59,7 +61,7 @@ interface OneRaw {
   readonly value: PlcValue
 }
 
-function oneRaw(tag: Tag, type: ValueType, value: PlcValue, fail: Fail): OneRaw {
+function oneRaw(tag: Tag, type: ByteType, value: PlcValue, fail: Fail): OneRaw {
   const isLimited = tag.min !== undefined || tag.max !== undefined || tag.scaling !== undefined
   // Bits, texts and numbers without limits: what the type takes is for the value layer to say.
   if (!isLimited) return { raw: value, value }
@@ -67,8 +69,8 @@ function oneRaw(tag: Tag, type: ValueType, value: PlcValue, fail: Fail): OneRaw 
   checkLimits(tag, number, fail)
   const { scaling } = tag
   if (scaling === undefined) {
-    if (typeof number === 'number' && valueTypes[type.name].kind !== 'real' && !Number.isInteger(number)) {
-      fail('BAD_VALUE', `${show(number)} is no whole number, as ${formatType(type)} takes.`)
+    if (typeof number === 'number' && infoOf(type).kind !== 'real' && !Number.isInteger(number)) {
+      fail('BAD_VALUE', `${show(number)} is no whole number, as ${formatByteType(type)} takes.`)
     }
     checkRange(type, number, number, fail)
     return { raw: number, value: number }
@@ -91,13 +93,13 @@ function checkLimits({ min, max, unit }: Tag, value: number | bigint, fail: Fail
   if (max !== undefined && value > max) fail('OUT_OF_RANGE', `${value}${how} is above its maximum of ${text(max)}.`)
 }
 
-function scaledRaw(tag: Tag & Required<Pick<Tag, 'scaling'>>, type: ValueType, value: number, fail: Fail): OneRaw {
+function scaledRaw(tag: Tag & Required<Pick<Tag, 'scaling'>>, type: ByteType, value: number, fail: Fail): OneRaw {
   const { scaling } = tag
   const limit = scaling.clamp === true ? limitOf(scaling, value) : undefined
   if (limit !== undefined) fail('OUT_OF_RANGE', `${value} is beyond ${limit}, where its scale ends.`)
   const exact = rawOf(scaling, value)
   if (exact === undefined) return fail('OUT_OF_RANGE', `${value} has no value in the PLC by its scaling.`)
-  if (valueTypes[type.name].kind === 'real') {
+  if (infoOf(type).kind === 'real') {
     checkRange(type, exact, value, fail)
     return { raw: exact, value }
   }
@@ -106,7 +108,7 @@ function scaledRaw(tag: Tag & Required<Pick<Tag, 'scaling'>>, type: ValueType, v
   const read = engineeringOf(scaling, raw)
   if (!read.ok) return fail('OUT_OF_RANGE', `${value} cannot be read back: ${read.reason}`)
   checkLimits(tag, read.value, fail, `, the nearest value to ${value} that the PLC can hold,`)
-  return { raw: valueTypes[type.name].kind === 'long' ? BigInt(raw) : raw, value: read.value }
+  return { raw: infoOf(type).kind === 'long' ? BigInt(raw) : raw, value: read.value }
 }
 
 /** Halves away from zero, and no -0. */
@@ -116,23 +118,24 @@ function nearest(value: number): number {
 }
 
 /** Whether the type can hold it. Single precision is rounded as every REAL is. */
-function checkRange(type: ValueType, raw: number | bigint, value: number | bigint, fail: Fail): void {
-  const row = valueTypes[type.name]
+function checkRange(type: ByteType, raw: number | bigint, value: number | bigint, fail: Fail): void {
+  const { kind, min = 0, max = 0 } = infoOf(type)
   const scaled = raw === value ? '' : ` (${raw} in the PLC)`
-  switch (row.kind) {
+  switch (kind) {
     case 'bit':
     case 'text':
-      fail('BAD_VALUE', `${formatType(type)} has no limits and no scaling.`)
+      fail('BAD_VALUE', `${formatByteType(type)} has no limits and no scaling.`)
       break
     case 'real':
-      if (typeof raw === 'bigint') fail('BAD_VALUE', `${formatType(type)} takes a number, not the BigInt ${show(raw)}.`)
+      if (typeof raw === 'bigint')
+        fail('BAD_VALUE', `${formatByteType(type)} takes a number, not the BigInt ${show(raw)}.`)
       if (type.name === 'REAL' && !Number.isFinite(Math.fround(Number(raw)))) {
         fail('OUT_OF_RANGE', `${value}${scaled} is more than REAL can hold.`)
       }
       break
     default:
-      if (raw < row.min || raw > row.max) {
-        fail('OUT_OF_RANGE', `${value}${scaled} is not from ${row.min} to ${row.max}, as ${formatType(type)} is.`)
+      if (raw < min || raw > max) {
+        fail('OUT_OF_RANGE', `${value}${scaled} is not from ${min} to ${max}, as ${formatByteType(type)} is.`)
       }
   }
 }
