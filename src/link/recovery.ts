@@ -26,11 +26,15 @@ export interface RecoveryOptions {
 /** ms within which adapters hand on what they have: the next character of a frame that goes on. */
 const ADAPTER = 20
 
+/** Pauses that are counted anew because nobody listened: more would keep the line of a busy program for ever. */
+const MOST_ANEW = 3
+
 export class Recovery {
   readonly #bytes: Buffer
   readonly #options: RecoveryOptions
   #quietFrom = Number.NEGATIVE_INFINITY
   #isGoingOn = false
+  #anew = 0
   #lastByte = Number.NEGATIVE_INFINITY
   /** When the pause behind the last answer is over. */
   #gapUntil = Number.NEGATIVE_INFINITY
@@ -72,17 +76,25 @@ export class Recovery {
   begin(now: number, hasCome: boolean): Buffer {
     const isEnded = hasCome && this.#bytes.length > 0
     this.#isGoingOn = true
+    this.#anew = 0
     this.#quietFrom = isEnded ? now : Math.max(now, this.#answerBy ?? now)
     this.#answerBy = undefined
     return this.#bytes
   }
 
-  /** Bytes have come. @returns whether they are thrown away: the line is not in a known state, and must be quiet anew */
-  swallows(now: number): boolean {
-    this.#lastByte = now
+  /** Bytes have come, and were read at that time. @returns whether they are thrown away: the line is not in a known state, and must be quiet anew */
+  swallows(now: number, readAt: number): boolean {
+    this.#lastByte = readAt
     if (!this.#isNotKnown(now)) return false
-    this.#quietFrom = Math.max(this.#quietFrom, now)
+    this.#quietFrom = Math.max(this.#quietFrom, readAt)
     return true
+  }
+
+  /** Nobody listened since `then`: whether it was quiet is not known. */
+  listenAnew(then: number, now: number): void {
+    if (!this.#isNotKnown(then) || this.#anew === MOST_ANEW) return
+    this.#anew += 1
+    this.#quietFrom = Math.max(this.#quietFrom, now)
   }
 
   /** Whether nothing may be sent yet. */

@@ -79,11 +79,8 @@ export class Session<J extends Job = Job> {
   /** `fence`: for datagrams where the local port stays. */
   constructor(framing: AnswerFraming, options: SessionOptions, fence?: Fence) {
     if (framing.correlation === 'order' && options.window !== 1) {
-      throw new RequestError(
-        'BAD_OPTION',
-        `The ${framing.name} frame has no serial number, so only one request may be in flight; asked for ${options.window}.`,
-        'inFlight',
-      )
+      const message = `The ${framing.name} frame has no serial number, so only one request may be in flight; asked for ${options.window}.`
+      throw new RequestError('BAD_OPTION', message, 'inFlight')
     }
     this.#framing = framing
     this.#options = options
@@ -130,6 +127,11 @@ export class Session<J extends Job = Job> {
     this.#recover(now)
   }
 
+  /** Until when nothing may be sent: the line is not in a known state, or rests between two requests. */
+  pausesUntil(now: number): number | undefined {
+    return this.#recovery?.due(now)
+  }
+
   submit(job: J, now: number): void {
     this.#waiting.add(job)
     this.#fill(now)
@@ -164,16 +166,18 @@ export class Session<J extends Job = Job> {
     return ends
   }
 
-  receive(chunk: Buffer, now: number): void {
+  /** `readAt`: where that is later than `now`, because bytes that came before may wait to be read. */
+  receive(chunk: Buffer, now: number, readAt = now): void {
     if (this.#dropped) return
     if (this.#options.kind === 'datagram') this.#receiveDatagram(chunk, now)
-    else if (this.#recovery?.swallows(now) === true) this.#events.push({ kind: 'stray' })
+    else if (this.#recovery?.swallows(now, readAt) === true) this.#events.push({ kind: 'stray' })
     else this.#receiveStream(chunk, now)
     this.#fill(now)
   }
 
-  /** Ends what is overdue. Call it when `nextTimeout` is reached. */
-  timeout(now: number): void {
+  /** Ends what is overdue. Call it when `nextTimeout` is reached. `listened`: until when, where a program stood still since. */
+  timeout(now: number, listened = now): void {
+    if (listened < now) this.#recovery?.listenAnew(listened, now)
     for (const job of [...this.#waiting].filter((entry) => sendBy(entry, this.#roundTrips) <= now)) this.#tooLate(job)
     const late = this.#pending.filter((entry) => entry.job.deadline <= now)
     for (const { job, sentAt, sent } of late) this.#finish(job, { kind: 'timedOut', sent }, sentAt)
@@ -183,10 +187,9 @@ export class Session<J extends Job = Job> {
     this.#fill(now)
   }
 
-  /** The connection is gone: everything that was in flight has an unknown outcome, the rest was not sent. */
+  /** The connection is gone: what was in flight has an unknown outcome, the rest was not sent. */
   disconnected(): void {
-    const pending = this.#pending
-    const waiting = this.#waiting.clear()
+    const [pending, waiting] = [this.#pending, this.#waiting.clear()]
     this.#pending = []
     this.#output = []
     this.#received.clear()
@@ -206,9 +209,8 @@ export class Session<J extends Job = Job> {
     if (this.#pending.length < this.#options.window) earliest = earlier(earliest, this.#waiting.due(now))
     for (const { job } of this.#pending) if (earliest === undefined || job.deadline < earliest) earliest = job.deadline
     // Nothing waits between the requests of most programs.
-    for (const job of this.#waiting.size > 0 ? this.#waiting : []) {
-      earliest = earlier(earliest, sendBy(job, this.#roundTrips))
-    }
+    if (this.#waiting.size === 0) return earliest
+    for (const job of this.#waiting) earliest = earlier(earliest, sendBy(job, this.#roundTrips))
     return earliest
   }
 

@@ -1,7 +1,15 @@
 import type { Clock } from '../../transport/clock'
 
-/** More than this late, and the program stood still: what arrived meanwhile has not been read yet. */
-const STALLED = 50
+/** How it knows that the program stood still, and that what arrived meanwhile has not been read yet. In ms. */
+export interface AlarmOptions {
+  /** So much late at most is usual. */
+  readonly stalled: number
+  /** That reading takes what has arrived. */
+  readonly reading: number
+}
+
+/** A socket is read in the same turn. */
+const OF_SOCKETS: AlarmOptions = { stalled: 50, reading: 0 }
 
 /**
  * One timer for everything that is due. A timer that would fire earlier than needed is left alone, so that steady
@@ -9,13 +17,16 @@ const STALLED = 50
  */
 export class Alarm {
   readonly #clock: Clock
-  readonly #ring: () => void
+  readonly #ring: (stoodStill: boolean) => void
+  readonly #options: AlarmOptions
   #due = Number.POSITIVE_INFINITY
   #cancel: (() => void) | undefined
 
-  constructor(clock: Clock, ring: () => void) {
+  /** `ring`: told whether the program stood still. */
+  constructor(clock: Clock, ring: (stoodStill: boolean) => void, options = OF_SOCKETS) {
     this.#clock = clock
     this.#ring = ring
+    this.#options = options
   }
 
   /** Makes sure that it rings at `due` or earlier. `Infinity`: nothing is due. */
@@ -32,18 +43,20 @@ export class Alarm {
     this.#due = Number.POSITIVE_INFINITY
   }
 
-  /** After a stall the answers in the socket come first: nothing is overdue that has only not been looked at. */
-  #rung(): void {
-    if (this.#clock.now() - this.#due <= STALLED) {
-      this.#finish()
-      return
-    }
-    this.#cancel = this.#clock.timer(0, () => this.#finish())
+  /** When it should have rung, where the program stood still: the time until which everything that arrived has been read. */
+  missed(now: number): number | undefined {
+    return now - this.#due > this.#options.stalled ? this.#due : undefined
   }
 
-  #finish(): void {
+  /** After a stall the answers that wait to be read come first: nothing is overdue that has only not been looked at. */
+  #rung(): void {
+    if (this.missed(this.#clock.now()) === undefined) this.#finish(false)
+    else this.#cancel = this.#clock.timer(this.#options.reading, () => this.#finish(true))
+  }
+
+  #finish(stoodStill: boolean): void {
     this.#cancel = undefined
     this.#due = Number.POSITIVE_INFINITY
-    this.#ring()
+    this.#ring(stoodStill)
   }
 }

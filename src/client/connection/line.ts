@@ -16,7 +16,7 @@ import {
 } from '../../link/link'
 import type { Clock } from '../../transport/clock'
 import type { OpenTransport, Transport } from '../../transport/transport'
-import { Alarm } from './alarm'
+import { Alarm, type AlarmOptions } from './alarm'
 import type { Call } from './call'
 import * as failure from './failure'
 
@@ -75,6 +75,15 @@ const SHARE_OF_ABSENT = 1 / 10
 /** ms between two attempts to open a line that can recover, whoever makes them: an adapter that was pulled out comes back when it likes. */
 const BETWEEN_ATTEMPTS = 250
 
+/** Pauses tell answers apart there, and a port is read beside the program: late by less than a pause is much. */
+const OF_RECOVERY: AlarmOptions = { stalled: 10, reading: 50 }
+
+/** ms before the end of a pause at which the time is looked at: who is late for that stood still while something may have come. */
+const BEFORE = 10
+
+/** ms that are none: something is not due yet. */
+const JUST_BEFORE = 0.001
+
 /** Characters of the longest answer of the manuals (960 words in ASCII code), where nobody knows it before. */
 const LONGEST_ANSWER = 3872
 
@@ -101,6 +110,8 @@ export class Line {
   #alone: LineUser | undefined
   #carrier: Carrier | undefined
   #peer = 'the PLC'
+  /** Until then everything that came has been read. */
+  #listened = 0
   /** Until then the time for PLCs that are not there is spent. */
   #absentUntil = 0
   /** Why it could not be opened last, and when. */
@@ -111,7 +122,7 @@ export class Line {
   constructor(options: LineOptions) {
     const { clock, framing, proof, random, timeout } = options
     this.#options = options
-    this.#alarm = new Alarm(clock, () => this.#timeout())
+    this.#alarm = new Alarm(clock, (stoodStill) => this.#timeout(stoodStill), options.recovery && OF_RECOVERY)
     this.#serials = new SerialNumbers(Math.floor(random() * 0x10000))
     this.#fence = new Fence(framing, {
       ask: proof,
@@ -158,9 +169,21 @@ export class Line {
     return (exchange.write(0).length + answer) * byteTime
   }
 
+  /**
+   * The time, as far as the line has listened: behind a program that stood still answers may wait to be read, and a pause is
+   * over only when it is known that nothing came in it.
+   */
+  #now(): number {
+    const now = this.#options.clock.now()
+    const isPausing = this.#carrier?.session?.pausesUntil(this.#listened) !== undefined
+    const missed = isPausing ? this.#alarm.missed(now) : undefined
+    this.#listened = missed === undefined ? now : Math.max(this.#listened, missed - JUST_BEFORE)
+    return this.#listened
+  }
+
   /** An answer was none: brings the line to a known state, before anything else is asked on it. */
   restore(): void {
-    this.#carrier?.session?.restore(this.#options.clock.now())
+    this.#carrier?.session?.restore(this.#now())
   }
 
   /**
@@ -247,7 +270,7 @@ export class Line {
     }
     this.#users.delete(user)
     this.#countUsers()
-    const released = this.#carrier?.session?.release((call) => call.plc === user, this.#options.clock.now()) ?? []
+    const released = this.#carrier?.session?.release((call) => call.plc === user, this.#now()) ?? []
     this.flush()
     return released
   }
@@ -305,8 +328,9 @@ export class Line {
     if (this.#alone !== undefined) this.#alone.received(bytes, now)
     else for (const user of this.#concerned()) user.received(bytes, now)
     if (this.#carrier !== carrier) return
-    carrier.session?.receive(bytes, now)
-    this.flush(now)
+    const listened = this.#now()
+    carrier.session?.receive(bytes, listened, now)
+    this.flush(listened)
   }
 
   /** Whom bytes from the line may be for, where several share it. */
@@ -316,16 +340,17 @@ export class Line {
 
   /** Sends it when its turn comes. `flush` afterwards. */
   submit(call: Call, now: number): void {
-    this.#carrier?.session?.submit(call, now)
+    this.#carrier?.session?.submit(call, Math.min(now, this.#now()))
   }
 
   /** Gives a call up. `flush` afterwards. @returns whether it had been sent; `undefined` when it is not known here */
   abandon(call: Call): boolean | undefined {
-    return this.#carrier?.session?.abandon(call, this.#options.clock.now())
+    return this.#carrier?.session?.abandon(call, this.#now())
   }
 
   /** Takes what the session has to say, then what it has to send, until it is quiet. */
-  flush(now = this.#options.clock.now()): void {
+  flush(at = Number.POSITIVE_INFINITY): void {
+    const now = Math.min(at, this.#now())
     const carrier = this.#carrier
     const session = carrier?.session
     if (carrier === undefined || session === undefined) return
@@ -414,13 +439,16 @@ export class Line {
     return { ends, others }
   }
 
-  #schedule(now = this.#options.clock.now()): void {
+  #schedule(now = this.#now()): void {
     const carrier = this.#carrier
     const due = carrier?.openBy ?? carrier?.session?.nextTimeout(now)
     if (due !== undefined) this.#alarm.set(due)
+    // Also while nobody waits: who asks later must know whether the line was listened to.
+    const pause = carrier?.session?.pausesUntil(now)
+    if (pause !== undefined) this.#alarm.set(now < pause - BEFORE ? pause - BEFORE : pause)
   }
 
-  #timeout(): void {
+  #timeout(stoodStill: boolean): void {
     const { clock, connectTimeout } = this.#options
     const carrier = this.#carrier
     this.#guard(carrier, () => {
@@ -429,7 +457,7 @@ export class Line {
         this.fail(failure.connectTimedOut(this.peer, connectTimeout))
         return
       }
-      carrier?.session?.timeout(now)
+      carrier?.session?.timeout(now, stoodStill ? this.#listened : now)
       this.flush(now)
       this.#schedule(now)
     })
