@@ -86,12 +86,16 @@ export const serialFaults = [
   'wire initialise',
 ] as const
 
+/** Answers that come later than any may: what was asked is ended by EOT, and in format 5 by nothing. */
+const endedByEot: readonly string[] = ['late', 'held']
+
 const now = (): number => Number(process.hrtime.bigint()) / 1e6
 
 export async function serialLane({ kind, seed, requests, faults, double }: SerialLaneOptions): Promise<SerialTally> {
   const started = now()
   const { frame, messageFormat, baudRate, sumCheck, pace, echo } = kind
   const known: readonly string[] = sumCheck ? serialFaults : wholeFaults
+  const isSeen = (name: string) => messageFormat !== 5 || !endedByEot.includes(name)
   const far = await Far.start({
     baudRate,
     messageFormat,
@@ -103,7 +107,9 @@ export async function serialLane({ kind, seed, requests, faults, double }: Seria
     cells: CELLS,
     first: FIRST,
     refusal: frame === '1C' ? 0x06 : 0x7143,
-    noise: kind.noise ? { share: double?.share ?? SHARE, kinds: known.filter(faults), ...NOISY } : undefined,
+    noise: kind.noise
+      ? { share: double?.share ?? SHARE, kinds: known.filter((name) => faults(name) && isSeen(name)), ...NOISY }
+      : undefined,
   })
   const port = { baudRate, dataLength: 8, parity: 'none' } as const
   const open = serialTransport({ ...port, path: far.near })
