@@ -22,12 +22,12 @@ export interface Scheduled {
   readonly notBefore?: number
 }
 
-/** So many of a higher priority may go in a row while others wait; then one of those goes. */
+/** So many of higher priorities may go in front of one that waits; then it goes, the higher one first where it is several. */
 const IN_A_ROW = 8
 
 export class Scheduler<J extends Scheduled> {
-  /** In the order of the priorities. `inARow`: how many of the priority went while a lower one waited. */
-  readonly #lanes = PRIORITIES.map(() => ({ queue: new Queue<J>(), inARow: 0 }))
+  /** In the order of the priorities. `passed`: how many of higher ones went since one of this lane waits. */
+  readonly #lanes = PRIORITIES.map(() => ({ queue: new Queue<J>(), passed: 0 }))
   /** The only one that waits, outside the queues: between the requests of most programs nothing does, and it goes at once. */
   #only: J | undefined
   #size = 0
@@ -69,23 +69,23 @@ export class Scheduler<J extends Scheduled> {
     const job = lane?.queue.take(now)
     if (lane === undefined || job === undefined) return undefined
     this.#count(job, -1)
-    this.#endRows(rank)
-    if (this.#lowerWaits(rank, now)) lane.inARow += 1
+    lane.passed = 0
+    this.#passLower(rank, now)
     return job
   }
 
   #takeOnly(job: J): J {
     this.#only = undefined
     this.#count(job, -1)
-    this.#endRows(rankOf(job))
+    for (const lane of this.#lanes) lane.passed = 0
     return job
   }
 
-  /** One of this rank goes: those before it begin to count anew. */
-  #endRows(rank: number): void {
-    for (let higher = 0; higher < rank; higher++) {
-      const passed = this.#lanes[higher]
-      if (passed !== undefined) passed.inARow = 0
+  /** One of this rank goes in front of all that wait in lower lanes. */
+  #passLower(rank: number, now: number): void {
+    for (let at = rank + 1; at < this.#lanes.length; at++) {
+      const lane = this.#lanes[at]
+      if (lane !== undefined) lane.passed = this.#waits(lane.queue, now) ? lane.passed + 1 : 0
     }
   }
 
@@ -134,22 +134,19 @@ export class Scheduler<J extends Scheduled> {
 
   /** Rank of the priority whose turn it is; -1 when nothing may go. */
   #next(now: number): number {
-    return this.#lanes.findIndex(
-      ({ queue, inARow }, rank) => this.#waits(queue, now) && (inARow < IN_A_ROW || !this.#lowerWaits(rank, now)),
-    )
+    let first = -1
+    for (let rank = 0; rank < this.#lanes.length; rank++) {
+      const lane = this.#lanes[rank]
+      if (lane === undefined || !this.#waits(lane.queue, now)) continue
+      if (first < 0) first = rank
+      else if (lane.passed >= IN_A_ROW) return rank
+    }
+    return first
   }
 
   /** Whether anything in it may go. */
   #waits(queue: Queue<J>, now: number): boolean {
     return queue.size > 0 && (this.#timed === 0 || queue.first(now) !== undefined)
-  }
-
-  #lowerWaits(rank: number, now: number): boolean {
-    for (let at = rank + 1; at < this.#lanes.length; at++) {
-      const lane = this.#lanes[at]
-      if (lane !== undefined && this.#waits(lane.queue, now)) return true
-    }
-    return false
   }
 }
 

@@ -56,6 +56,15 @@ describe('the order', () => {
     expect(order(scheduler)).toBe('r1 r2 r3 r4 r5 r6 r7 r8 P r9')
   })
 
+  test('of both, one of each goes after eight writes: a poll waits for nine others at most', () => {
+    const scheduler = schedule(
+      { name: 'P', priority: 'poll' },
+      ...numbered('r', 3),
+      ...numbered('w', 20, { priority: 'control' }),
+    )
+    expect(order(scheduler)).toBe('w1 w2 w3 w4 w5 w6 w7 w8 r1 P w9 w10 w11 w12 w13 w14 w15 w16 r2 w17 w18 w19 w20 r3')
+  })
+
   test('callers take turns, however much one of them asks', () => {
     const scheduler = schedule(
       ...numbered('a', 4, { caller: 'a' }),

@@ -16,8 +16,8 @@ export interface CallOptions {
    */
   readonly caller?: string | object
   /**
-   * `poll`: a read that is repeated anyway, so that writes and the reads of others go first. Of eight of those in a row one
-   * turn is given up, so that it comes to its end. Default `read`. A write goes first, whatever is said here.
+   * `poll`: a read that is repeated anyway, so that writes and the reads of others go first, but nine of them in a row at most.
+   * Default `read`. A write goes first, whatever is said here.
    */
   readonly priority?: 'read' | 'poll'
 }
