@@ -134,6 +134,19 @@ describe('a JSON file', () => {
     expect(csv(JSON.stringify(table)).tags).toEqual(table)
   })
 
+  test('is UTF-8: letters that might be another code in CSV are no doubt here', () => {
+    const tags = [{ name: 'gap', address: 'D0', unit: 'μm' }]
+    expect(csv(JSON.stringify(tags))).toMatchObject({ tags, messages: [] })
+    const { messages } = csv('Name,Address,Unit\ngap,D0,μm\n')
+    expect(messages).toEqual([
+      {
+        line: 1,
+        about: 'note',
+        message: expect.stringMatching(/^The file was read as utf-8; .*gb18030.* nearly as likely/),
+      },
+    ])
+  })
+
   test('says what is wrong with an entry', () => {
     const { tags, messages } = csv('{ "version": 1, "tags": [5, { "name": "a" }, { "name": "b", "address": "D0" }] }')
     expect(tags).toEqual([{ name: 'b', address: 'D0' }])

@@ -92,8 +92,11 @@ function likelihood(bytes: Buffer, { isLead, isUsual }: Page): number {
   return all === 0 ? 1 : usual / all
 }
 
-/** Codes whose likelihood differs by less cannot be told apart. */
-const DOUBT = 0.2
+/** Codes whose likelihood differs by less cannot be told apart. A few characters tell little: of two words anything may be usual. */
+function doubtOf(bytes: Buffer): number {
+  const foreign = bytes.reduce((sum, byte) => (byte < 0x80 ? sum : sum + 1), 0)
+  return 0.2 + 6 / foreign
+}
 
 function guessed(bytes: Buffer, isKnown: (text: string) => boolean): FileText | undefined {
   const found = pageNames.flatMap((encoding) => {
@@ -104,7 +107,8 @@ function guessed(bytes: Buffer, isKnown: (text: string) => boolean): FileText | 
   const known = found.filter(({ text }) => isKnown(text))
   const [best, ...others] = (known.length > 0 ? known : found).sort((a, b) => b.likely - a.likely)
   if (best === undefined) return undefined
-  const near = others.filter(({ text, likely }) => best.likely - likely < DOUBT && text !== best.text)
+  const doubt = doubtOf(bytes)
+  const near = others.filter(({ text, likely }) => best.likely - likely < doubt && text !== best.text)
   return { text: best.text, encoding: best.encoding, alternatives: near.map(({ encoding }) => encoding) }
 }
 
@@ -124,7 +128,20 @@ function detected(bytes: Buffer, isKnown: (text: string) => boolean): FileText |
     const text = textIn(bytes, encoding)
     if (text !== undefined) return { text, encoding, alternatives: [] }
   }
-  return utf8 === undefined ? guessed(bytes, isKnown) : { text: utf8, encoding: 'utf-8', alternatives: [] }
+  if (utf8 === undefined) return guessed(bytes, isKnown)
+  return { text: utf8, encoding: 'utf-8', alternatives: isChance(utf8) ? likelyPages(bytes) : [] }
+}
+
+/**
+ * Whether a text may be UTF-8 by chance: a few words of Chinese, such as 水位 in GBK, look like Greek or Hebrew letters then. Letters of
+ * western Europe, degrees and the like do not, and kana and kanji have a form that nothing else has by chance.
+ */
+function isChance(text: string): boolean {
+  return /[\u0100-\u07ff]/.test(text) && !/[\u0800-\uffff]/.test(text)
+}
+
+function likelyPages(bytes: Buffer): PageName[] {
+  return pageNames.filter((name) => textIn(bytes, name) !== undefined && likelihood(bytes, PAGES[name]) === 1)
 }
 
 /**
@@ -177,9 +194,10 @@ export function textOfFile(
  */
 export function fileOfText(text: string, encoding: TagFileEncoding): Buffer {
   const bytes = bytesOf(text, encoding)
-  const foreign = Array.from(text).find((character) => textIn(bytesOf(character, encoding), encoding) !== character)
-  if (foreign !== undefined) {
-    throw new RequestError('BAD_VALUE', `The character ${show(foreign)} does not exist in ${encoding}.`, 'encoding')
+  if (textIn(bytes, encoding) !== text) {
+    const foreign = Array.from(text).find((character) => textIn(bytesOf(character, encoding), encoding) !== character)
+    const message = `The character ${show(foreign ?? text)} does not exist in ${encoding}.`
+    throw new RequestError('BAD_VALUE', message, 'encoding')
   }
   const mark = MARKS.find(([name]) => name === encoding)?.[1] ?? []
   return Buffer.concat([Buffer.from(mark), bytes])

@@ -48,7 +48,7 @@ export function importTags(bytes: Uint8Array, options: TagImportOptions = {}): T
     ...(delimiter === undefined ? {} : { delimiter }),
     // Checked: what is left is a table.
     tags: rows.filter((_, at) => !bad.has(at)).map(({ row }) => row as unknown as Tag),
-    messages: [...doubtOf(file), ...notes, ...unread, ...refused].sort((a, b) => a.line - b.line),
+    messages: [...doubtOf(file, kind), ...notes, ...unread, ...refused].sort((a, b) => a.line - b.line),
   }
 }
 
@@ -64,8 +64,9 @@ function about(line: number, message: string): TagMessage {
   return { line, about: 'row', message }
 }
 
-function doubtOf({ encoding, alternatives }: FileText): TagMessage[] {
-  if (alternatives.length === 0) return []
+function doubtOf({ encoding, alternatives }: FileText, kind: TagFileKind): TagMessage[] {
+  // JSON is UTF-8 (RFC 8259).
+  if (alternatives.length === 0 || (kind === 'json' && encoding === 'utf-8')) return []
   const message = `The file was read as ${encoding}; ${alternatives.join(' or ')} is nearly as likely. If texts are wrong, say the encoding.`
   return [{ line: 1, about: 'note', message }]
 }
