@@ -293,6 +293,26 @@ describe('a silent station', () => {
     stations.close()
   })
 
+  test('costs one that is there its turn only: it is not taken for silent before it was asked', async () => {
+    const stations = new Stations({ answerTime: 500 })
+    const gone = Array.from({ length: 12 }, (_, i) => i + 1)
+    for (const number of gone) {
+      stations.dead.add(number)
+      new Tracked(stations.station(number).connection.connect())
+    }
+    const { connection, states, read } = stations.station(13)
+    const connecting = new Tracked(connection.connect())
+    const early = read()
+    await stations.pass(4000)
+    expect([stations.asked.some(({ station }) => station === 13), early.error?.outcome]).toEqual([false, 'notSent'])
+    expect(early.error?.message).toContain('its turn on the line has not come')
+    expect(early.error?.message).not.toMatch(/Most likely|has not answered/)
+    await stations.pass(6000)
+    expect([connecting.settled, connecting.error]).toEqual([1, undefined])
+    expect(states.map(({ name }) => name)).toEqual(['connecting', 'connected'])
+    stations.close()
+  })
+
   test('with an explicit timeout that is over before its answer time is not counted as absent', async () => {
     const { stations, second } = await two()
     stations.dead.add(2)

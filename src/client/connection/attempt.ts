@@ -49,7 +49,7 @@ export class Attempt implements LineUser {
     this.#options = options
     this.#line = line
     this.#owner = owner
-    this.#opening = new Opening(options, probe, (exchange) => line.timeOf(exchange, options.messageWait))
+    this.#opening = new Opening(options, probe, line)
   }
 
   /** Name of the request that is to prove the connection and has no answer yet. */
@@ -60,6 +60,11 @@ export class Attempt implements LineUser {
   /** Whether bytes could be sent; the PLC need not have answered yet. */
   get isOpen(): boolean {
     return this.#isOpen
+  }
+
+  /** Its first request was not sent yet, because others use the line. */
+  get waitsForTurn(): boolean {
+    return this.#opening.waitsForTurn
   }
 
   get peer(): string {

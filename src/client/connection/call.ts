@@ -2,6 +2,7 @@ import { checkNames, type OptionNames } from '../../basics/option-checks'
 import { shown } from '../../basics/show'
 import { ClosedError, EndCodeError, type PlcError, ProtocolError, RequestError } from '../../errors'
 import type { BodyLength, Exchange, Head, Job, Priority, ResponseFrame, RoundTrips } from '../../link/link'
+import type { Clock } from '../../transport/clock'
 import { abortedBeforeSending, asPlcError } from './failure'
 
 /** What every call may say. */
@@ -102,6 +103,8 @@ interface CallFacts {
   readonly allowance?: number
   readonly caller?: unknown
   readonly priority?: CallOptions['priority']
+  /** ms for its answer from being sent, where it waits for its turn without a deadline. */
+  readonly answerIn?: number
 }
 
 /** One request of the caller: the job the session carries. Settled exactly once. */
@@ -122,6 +125,9 @@ export class Call implements Job {
   readonly allowance?: number
   readonly caller: unknown
   readonly #asks: Priority
+  /** Of a call whose time begins when it is sent. */
+  readonly #answerIn: number | undefined
+  deadline: number
   lineTime: number | undefined
   answerDelay: number | undefined
   #plc: object | undefined
@@ -129,11 +135,13 @@ export class Call implements Job {
 
   constructor(
     readonly exchange: Exchange<unknown>,
-    readonly deadline: number,
+    deadline: number,
     settle: Settle,
-    { sends = true, onlyOn, allowance, caller, priority = 'read' }: CallFacts = {},
+    { sends = true, onlyOn, allowance, caller, priority = 'read', answerIn }: CallFacts = {},
   ) {
     this.#settle = settle
+    this.deadline = deadline
+    this.#answerIn = answerIn
     this.sends = sends
     this.onlyOn = onlyOn
     if (allowance !== undefined) this.allowance = allowance
@@ -145,6 +153,16 @@ export class Call implements Job {
   over(plc: object, roundTrips: RoundTrips): void {
     this.#plc = plc
     this.#roundTrips = roundTrips
+  }
+
+  /** It goes out. */
+  leaves(clock: Clock): void {
+    if (this.#answerIn !== undefined && this.waitsForTurn) this.deadline = clock.now() + this.#answerIn
+  }
+
+  /** It waits for its turn, however long that takes. */
+  get waitsForTurn(): boolean {
+    return this.deadline === Number.POSITIVE_INFINITY
   }
 
   /** Whose it is on the line. */

@@ -333,8 +333,12 @@ export class Connection {
   #notConnected(call: Call): void {
     if (call.sends) this.#counters.counts.timeouts += 1
     const { peer = 'the PLC', isOpen: open = false, probing: asked, noticed = { peer } } = this.#attempt ?? {}
-    const causes = open ? this.#owner.causes({ ...noticed, ...(asked === undefined ? {} : { onlyAsked: asked }) }) : []
-    const attempt = { peer, open, causes, reason: this.#supervisor.error, asked }
+    const waitsForTurn = this.#attempt?.waitsForTurn ?? false
+    const causes =
+      open && !waitsForTurn
+        ? this.#owner.causes({ ...noticed, ...(asked === undefined ? {} : { onlyAsked: asked }) })
+        : []
+    const attempt = { peer, open, waitsForTurn, causes, reason: this.#supervisor.error, asked }
     call.fail(failure.notConnectedInTime(call.sends ? call.exchange.title : undefined, attempt))
   }
 

@@ -129,6 +129,8 @@ export interface Attempt {
   readonly peer: string
   /** There is a connection, but the PLC has not answered on it yet. */
   readonly open: boolean
+  /** It was asked nothing on it yet: others who share it go first. */
+  readonly waitsForTurn: boolean
   /** Ranked causes of the silence, most likely first. */
   readonly causes: readonly string[]
   /** Why the connection before it was lost. */
@@ -139,13 +141,17 @@ export interface Attempt {
 
 /** The connection took too long. `title` is undefined for a call that only waits for the connection. */
 export function notConnectedInTime(title: string | undefined, attempt: Attempt): TimeoutError {
-  const { peer, open, causes, reason, asked } = attempt
+  const { causes, reason } = attempt
   const what = title === undefined ? 'Connecting took longer than allowed' : `${title} was not sent before its deadline`
-  const state = open
-    ? `${peer} has not answered ${asked === undefined ? '' : `${asked} `}yet`
-    : `there is no connection to ${peer} yet`
   const before = reason === undefined ? '' : ` ${reason.message}`
-  return new TimeoutError(`${what}: ${state}.${mostLikely(causes)}${before}`, 'notSent', causes)
+  return new TimeoutError(`${what}: ${stateOf(attempt)}.${mostLikely(causes)}${before}`, 'notSent', causes)
+}
+
+function stateOf({ peer, open, waitsForTurn, asked }: Attempt): string {
+  if (!open) return `there is no connection to ${peer} yet`
+  if (waitsForTurn)
+    return `its turn on the line has not come yet (${peer}): others who share it are asked first, or are silent`
+  return `${peer} has not answered ${asked === undefined ? '' : `${asked} `}yet`
 }
 
 function mostLikely(causes: readonly string[]): string {

@@ -214,6 +214,11 @@ export class Line {
     return this.#carrier?.session?.counts((call) => call.plc === user && call.priority === 'control').queued ?? 0
   }
 
+  /** Whether the requests of one may wait for those of others, also for such as are silent. */
+  get takesTurns(): boolean {
+    return this.canRecover && this.#users.size > 1
+  }
+
   /** Whether other PLCs answer on it. */
   othersAnswer(user: LineUser): boolean {
     return [...this.#users].some((other) => other !== user && this.#answered.has(other))
@@ -368,6 +373,7 @@ export class Line {
   }
 
   #send(carrier: Carrier, { bytes, job }: Sent<Call>): void {
+    job?.leaves(this.#options.clock)
     const user = job && this.#userOf(job)
     if (user !== undefined) user.sent(bytes)
     else for (const each of [...this.#users]) each.sent(bytes)

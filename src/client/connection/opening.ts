@@ -1,9 +1,10 @@
 // The first requests on a connection, which no caller asked for: unlocking, then the probe that proves the PLC is there.
 import { EndCodeError, type PlcError } from '../../errors'
-import type { Exchange } from '../../link/link'
+import type { Exchange, ResponseFrame } from '../../link/link'
 import { Call } from './call'
 import type { ConnectionOptions } from './connection-options'
 import * as failure from './failure'
+import type { Line } from './line'
 import type { NextProbe } from './probing'
 
 /**
@@ -12,21 +13,23 @@ import type { NextProbe } from './probing'
  */
 const UNLOCKED_FOR = 9 * 60_000
 
-type Options = Pick<ConnectionOptions, 'unlocking' | 'timeout' | 'connectTimeout'>
+type Options = Pick<ConnectionOptions, 'unlocking' | 'timeout' | 'connectTimeout' | 'messageWait'>
+
+/** What it needs to know of the line. */
+type OpeningLine = Pick<Line, 'timeOf' | 'takesTurns'>
 
 export class Opening {
   readonly #options: Options
   readonly #probe: NextProbe | undefined
-  readonly #timeOf: (exchange: Exchange<unknown>) => number
+  readonly #line: OpeningLine
   #call: Call | undefined
   #unlocking = false
   #corrected = false
   #heardAt = 0
 
-  /** `timeOf`: ms that an exchange takes on a slow line. */
-  constructor(options: Options, probe: NextProbe | undefined, timeOf: (exchange: Exchange<unknown>) => number) {
+  constructor(options: Options, probe: NextProbe | undefined, line: OpeningLine) {
     this.#options = options
-    this.#timeOf = timeOf
+    this.#line = line
     this.#probe = probe
   }
 
@@ -51,6 +54,11 @@ export class Opening {
   /** Name of the probe that has no answer yet. */
   get probing(): string | undefined {
     return this.#call === undefined || this.#unlocking ? undefined : this.#probe?.probe.name
+  }
+
+  /** Others who share the line go first: what it asks was not sent yet. */
+  get waitsForTurn(): boolean {
+    return this.#call?.waitsForTurn ?? false
   }
 
   /** Whether one of its calls is not answered yet. */
@@ -100,15 +108,18 @@ export class Opening {
   }
 
   #make(exchange: Exchange<unknown>, now: number, share: number): Call {
-    const { timeout, connectTimeout } = this.#options
+    const { timeout, connectTimeout, messageWait } = this.#options
+    const answerIn = share * Math.min(timeout, connectTimeout) + this.#line.timeOf(exchange, messageWait)
+    // A PLC that was not asked is not silent: the silence of others takes time, too.
+    const deadline = this.#line.takesTurns ? Number.POSITIVE_INFINITY : now + answerIn
     // Nobody awaits it; how it ends is seen by the connection.
-    const deadline = now + share * Math.min(timeout, connectTimeout) + this.#timeOf(exchange)
-    this.#call = new Call(exchange, deadline, {
-      answer: (frame) => {
+    const settle = {
+      answer: (frame: ResponseFrame | undefined) => {
         if (frame !== undefined) exchange.decode(frame)
       },
       fail: () => {},
-    })
+    }
+    this.#call = new Call(exchange, deadline, settle, { answerIn })
     return this.#call
   }
 }
