@@ -122,7 +122,8 @@ export class ItemWatch implements Watch<Values> {
     const named = this.#named(results)
     const changed = this.#placesOfResults(named, (item, result) => item.state.take(result))
     const judged = this.#placesOfResults(named, (item, result) => item.judge(result, now))
-    if (changed.length > 0 || judged.length > 0 || this.#settings.tellsScans) this.#tell(changed)
+    const isFirst = this.#counts.scans === 1
+    if (changed.length > 0 || judged.length > 0 || isFirst || this.#settings.tellsScans) this.#tell(changed)
     return judged.length > 0
   }
 

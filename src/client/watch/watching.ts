@@ -35,6 +35,8 @@ export class Watching {
   /** Plans of demoted items, each alone. */
   readonly #alone = new WeakMap<WatchedItem, PreparedRead>()
   #plc = new Demotion(SILENT_PLC)
+  /** When a scan last ended without an answer. */
+  #silentAt = Number.NEGATIVE_INFINITY
   #isProbing = false
   #closed = false
   /** What ends the watching of their signals. */
@@ -141,16 +143,19 @@ export class Watching {
     let isRegrouped = false
     for (const watch of watches) {
       const results = scanned.get(watch) ?? []
-      isRegrouped = watch.scanned(results, answer !== 'silent', now - began) || isRegrouped
+      isRegrouped = watch.scanned(results, answerOf(results) !== 'silent', now - began) || isRegrouped
     }
     if (isRegrouped) this.#plans.forget()
-    this.#judge(answer, now)
+    this.#judge(answer, began, now)
     this.#arm()
   }
 
-  #judge(answer: Answer, now: number): void {
-    if (answer === 'silent' && this.#plc.failed(now)) this.#pause(true)
+  #judge(answer: Answer, began: number, now: number): void {
     if (answer === 'answered' && this.#answers()) this.#hurry()
+    // Scans that were under way together have met one silence, however many they are.
+    if (answer !== 'silent' || began < this.#silentAt || this.#plc.isDemoted) return
+    this.#silentAt = now
+    if (this.#plc.failed(now)) this.#pause(true)
   }
 
   /** @returns whether the PLC was demoted until now */

@@ -101,6 +101,13 @@ describe('what is told', () => {
     expect(a?.timestamp).toBe(b?.timestamp)
   })
 
+  test('of no items at all is that there are none', async () => {
+    const bench = new WatchBench()
+    const { updates } = bench.watch({}, { every: 100 })
+    await bench.pass(500)
+    expect([updates, bench.reads]).toEqual([[{ values: {}, changed: [], late: 0, merged: 0, demoted: [] }], []])
+  })
+
   test('has places instead of names for a list', async () => {
     const bench = new WatchBench()
     const watch = bench.watching.open(['D1', 'D2'], { every: 100 })
@@ -362,6 +369,20 @@ describe('a PLC that does not answer', () => {
     await bench.pass(10)
     expect(updates.at(-1)?.values.a).toMatchObject({ quality: 'good', value: 0 })
     expect(bench.takeReads().map(([at]) => at)).toEqual([0, 1000, 1010])
+  })
+
+  test('is one silence to the scans of many rates that wait for it', async () => {
+    const bench = new WatchBench()
+    for (let every = 100; every < 120; every++) bench.watch({ a: `D${every}` }, { every })
+    await bench.pass(5000)
+    bench.silent = true
+    bench.takes = () => 3000
+    await bench.pass(3200)
+    bench.takes = () => 0
+    await bench.pass(200)
+    bench.takeReads()
+    await bench.pass(3000)
+    expect(bench.takeReads().map(([, items]) => items)).toEqual(['D100', 'D100'])
   })
 
   test('for longer than staleAfter leaves nothing looking good, though its scan has not ended', async () => {
