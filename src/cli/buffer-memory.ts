@@ -6,6 +6,7 @@ import { type BufferMemory, type MelsecClient, type ModulePlace, RequestError } 
 import { type CommandRun, type MakeCommand, newCommand, perform } from './command'
 import { addConnectionOptions, type ConnectionOptions, peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
+import { onlyOf } from './family'
 import { json, table } from './output'
 import { refusalOf, type Terminal } from './terminal'
 
@@ -14,6 +15,11 @@ type MemoryOptions = ConnectionOptions & {
   readonly model?: string
   readonly startIo?: number
   readonly slot0?: 0 | 1
+}
+
+const NO_MODULES = {
+  what: 'buffer memory of modules',
+  instead: 'Its buffers are read with request readSpecifiedBuffer, the parameters of its units with parameters read.',
 }
 
 /** Whose buffer memory it is, and what it is called. */
@@ -77,13 +83,15 @@ function make(run: CommandRun, whose: Whose, command: Command): Command {
     .option('-y, --yes', 'do not ask')
   addConnectionOptions(command)
   return command.action((action: string, address: string, numbers: readonly string[], options: MemoryOptions) =>
-    perform(run, options, () => {
-      const words = numbers.map(wholeNumber)
-      const at = wholeNumber(address)
-      if (action === 'read') return read(run.terminal, whose, { at, words }, options)
-      if (action === 'write') return write(run.terminal, whose, { at, words }, options)
-      throw new RequestError('BAD_OPTION', `There is no ${JSON.stringify(action)}: choose read or write.`, 'action')
-    }),
+    perform(run, options, () =>
+      onlyOf('melsec', NO_MODULES, options, async () => {
+        const words = numbers.map(wholeNumber)
+        const at = wholeNumber(address)
+        if (action === 'read') return read(run.terminal, whose, { at, words }, options)
+        if (action === 'write') return write(run.terminal, whose, { at, words }, options)
+        throw new RequestError('BAD_OPTION', `There is no ${JSON.stringify(action)}: choose read or write.`, 'action')
+      }),
+    ),
   )
 }
 

@@ -1,63 +1,91 @@
-import { type CommandDescription, commandNamed, commands, describeCommand, type FieldDescription } from '../entry/codec'
+import {
+  type CommandDescription,
+  commandNamed,
+  commands,
+  describeCommand,
+  describeJwCommand,
+  type FieldDescription,
+  type JwCommandDescription,
+  jwCommandNamed,
+  jwCommands,
+} from '../entry/codec'
 import { type MakeCommand, newCommand, perform } from './command'
-import { jsonOption } from './connection-options'
 import { exitCodes } from './exit-code'
+import { type Family, type FamilyOptions, familyOption } from './family'
+import { jsonOption } from './option'
 import { json, table } from './output'
 
-const examples = ['commands', 'commands readWords', 'commands 1617']
+const examples = ['commands', 'commands readWords', 'commands 1617', 'commands readDataMemory --family jw']
+
+type Description = CommandDescription | JwCommandDescription
+
+/** Where commands of a family are found and described. */
+const LISTS: Readonly<Record<Family, { all(): readonly Description[]; named(name: string): Description }>> = {
+  melsec: {
+    all: () => Object.values(commands).map((command) => describeCommand(command)),
+    named: (name) => describeCommand(commandNamed(name)),
+  },
+  jw: {
+    all: () => Object.values(jwCommands).map((command) => describeJwCommand(command)),
+    named: (name) => describeJwCommand(jwCommandNamed(name)),
+  },
+}
 
 /** `melsec-jw commands` */
 export const commandsCommand: MakeCommand = (run) =>
   newCommand('commands', 'the commands that request sends, and what their messages hold', examples)
     .argument('[command]', 'one of them, by its name or its code')
+    .addOption(familyOption())
     .addOption(jsonOption())
-    .action((name: string | undefined, options: { readonly json?: boolean }) =>
+    .action((name: string | undefined, options: FamilyOptions & { readonly json?: boolean }) =>
       perform(run, options, async () => {
-        const found = name === undefined ? undefined : describeCommand(commandNamed(name))
-        if (options.json === true) run.terminal.out(json(found ?? { commands: all() }))
-        else run.terminal.out(found === undefined ? overview() : details(found))
+        const list = LISTS[options.family]
+        const found = name === undefined ? undefined : list.named(name)
+        if (options.json === true) run.terminal.out(json(found ?? { commands: list.all() }))
+        else run.terminal.out(found === undefined ? overview(list.all()) : details(found, options.family))
         return exitCodes.ok.code
       }),
     )
 
-function all(): readonly CommandDescription[] {
-  return Object.values(commands).map((command) => describeCommand(command))
-}
-
-function overview(): string {
-  const rows = all().map(({ name, code, effect, title, manual }) => [name, code, effect, title, manual])
+function overview(list: readonly Description[]): string {
+  const rows = list.map(({ name, code, effect, title, manual }) => [name, code, effect, title, manual])
   return table([['COMMAND', 'CODE', 'EFFECT', 'TITLE', 'MANUAL'], ...rows])
 }
 
-function details({
-  name,
-  title,
-  code,
-  effect,
-  manual,
-  to,
-  context,
-  request,
-  response,
-  example,
-}: CommandDescription): string {
+function details(description: Description, family: Family): string {
+  const { name, title, code, effect, manual, request, response, example } = description
   const head = table([
     ['Command', name],
     ['Title', title],
     ['Code', code],
     ['Effect', effect],
     ['Manual', manual],
-    ...(to === undefined ? [] : [['Goes to', 'the connected station only, whatever the route']]),
-    ...(context === undefined ? [] : [['Also takes', `${context}: the message of that command, which is sent before`]]),
+    ...('confidence' in description ? jwRows(description) : melsecRows(description)),
   ])
+  const option = family === 'jw' ? ' --family jw' : ''
   return [
     head,
     ...section('Message:', request),
     ...section('Answer:', response),
     '',
     'Example:',
-    `  melsec-jw request ${name} '${JSON.stringify(example)}'`,
+    `  melsec-jw request ${name} '${JSON.stringify(example)}'${option}`,
   ].join('\n')
+}
+
+function melsecRows({ to, context }: CommandDescription): string[][] {
+  return [
+    ...(to === undefined ? [] : [['Goes to', 'the connected station only, whatever the route']]),
+    ...(context === undefined ? [] : [['Also takes', `${context}: the message of that command, which is sent before`]]),
+  ]
+}
+
+function jwRows({ confidence, open, models }: JwCommandDescription): string[][] {
+  return [
+    ['Confirmed', confidence],
+    ...(open === undefined ? [] : [['Open', open]]),
+    ...(models === undefined ? [] : [['Only', models.join(', ')]]),
+  ]
 }
 
 function section(title: string, fields: readonly FieldDescription[]): readonly string[] {

@@ -1,4 +1,4 @@
-// The options that say which PLC, the same for every command that talks to one.
+// The options that say which PLC, the same for every command that talks to one; of MELSEC, and what they share with other families.
 import { type Command, InvalidArgumentError, Option } from 'commander'
 import {
   createMelsecClient,
@@ -6,30 +6,38 @@ import {
   ethernetFrameNames,
   type FrameName,
   frameNames,
+  type JwProbeKind,
+  jwProbeKinds,
   type MelsecClient,
   type MelsecClientOptions,
   moduleIoNumbers,
   type NetworkPlc,
-  type OpenTransport,
-  PlcError,
+  type ProbeKind,
   type ProfileId,
   probeKinds,
   profileIds,
   profiles,
-  RequestError,
   type SerialPlc,
   type ValueFormat,
 } from '../index'
-import { choice, given, whole } from './option'
+import { type FamilyOptions, familyOption, onlyFor } from './family'
+import { addJwOptions, type JwConnectionOptions } from './jw/connection'
+import { choice, given, named, whole } from './option'
+import { addPeerOptions, badPeer, networkText, type PeerOptions, peerOf } from './peer'
 import { addSerialLineOptions, type SerialLineOptions, serialPortOf } from './serial-options'
+import {
+  addSessionOptions,
+  connected,
+  type Need,
+  nowhere,
+  type Plc,
+  refusedUnsent,
+  type SessionOptions,
+} from './session'
 import type { Terminal } from './terminal'
 
 /** The options as commander gives them. */
-export interface ConnectionOptions extends SerialLineOptions {
-  readonly plc?: string
-  readonly host?: string
-  readonly port?: number
-  readonly udp?: boolean
+export interface ConnectionOptions extends SerialLineOptions, PeerOptions, SessionOptions, FamilyOptions {
   readonly profile?: ProfileId
   readonly frame?: FrameName
   readonly ascii?: boolean
@@ -47,15 +55,12 @@ export interface ConnectionOptions extends SerialLineOptions {
   readonly selfStation?: number
   readonly messageWait?: number
   readonly monitoringTimer?: number
-  readonly localAddress?: string
-  readonly localPort?: number
-  readonly probe?: NonNullable<MelsecClientOptions['probe']>
-  readonly timeout?: number
-  readonly connectTimeout: number
+  readonly probe?: ProbeKind | JwProbeKind
   readonly password?: boolean
-  readonly trace?: boolean
-  readonly json?: boolean
 }
+
+/** The options that say which PLC, of any family. */
+export type AnyConnectionOptions = ConnectionOptions & JwConnectionOptions
 
 /** The options that say how words become values. */
 export interface FormatOptions {
@@ -66,7 +71,6 @@ export interface FormatOptions {
 
 const ORDERS = ['low-first', 'high-first'] as const satisfies readonly NonNullable<ValueFormat['wordOrder']>[]
 
-export const jsonOption = () => new Option('--json', 'print one JSON document instead of text')
 export const profileOption = () => choice('--profile <id>', 'family of the PLC', profileIds)
 
 /** Options of data code, also of a simulated PLC. */
@@ -103,22 +107,42 @@ export function frameOption<N extends FrameName>(description: string, names: rea
   return choice('--frame <name>', description, names)
 }
 
-/** Adds the options that say which PLC. */
+const INSTEAD = {
+  plc: 'A Sharp JW has one kind of messages, in binary, with octal addresses: leave it out. --model says the family of its CPU, --header what stands in front of messages.',
+  serial: 'The serial computer link of a Sharp JW is not spoken here: give address and port of its Ethernet unit.',
+  route: 'Another station of a Sharp JW is behind its FL-net unit: --header relay:pda,psa,slot,station.',
+  times: 'A Sharp JW is told no such time: leave it out. --timeout says how long this computer waits.',
+} as const
+
+/** Adds the options that say which PLC, to a command that only MELSEC has; `--family jw` is taken, to be refused with what to do. */
 export function addConnectionOptions(command: Command): Command {
+  return addAllOptions(command, () => {})
+}
+
+/** Adds the options that say which PLC, of any family. */
+export function addAnyConnectionOptions(command: Command): Command {
+  return addAllOptions(command, () =>
+    onlyFor('jw', 'With a Sharp JW say --family jw, with a MELSEC leave it out.', command, addJwOptions),
+  )
+}
+
+function addAllOptions(command: Command, addOthers: () => void): Command {
+  command.optionsGroup('Which PLC:')
+  addPeerOptions(command).addOption(familyOption())
+  onlyFor('melsec', INSTEAD.serial, command, addSerialPortOption)
+  onlyFor('melsec', INSTEAD.plc, command, addPlcOptions)
+  onlyFor('melsec', INSTEAD.serial, command, addLineOptions)
+  onlyFor('melsec', INSTEAD.route, command, addRouteOptions)
+  addOthers()
+  return addSessionOptions(command, addTimeOptions)
+}
+
+function addSerialPortOption(command: Command): void {
+  command.addOption(new Option('--serial <path>', 'serial port instead, e.g. COM3 or /dev/ttyUSB0'))
+}
+
+function addPlcOptions(command: Command): void {
   command
-    .optionsGroup('Which PLC:')
-    .option(
-      '--plc <host:port>',
-      `address and port of the PLC, e.g. 192.168.3.39:5010; else ${VARIABLE} in the environment`,
-    )
-    .addOption(new Option('--host <host>', 'address of the PLC'))
-    .addOption(
-      new Option('--port <number>', 'port of an SLMP (MC protocol) entry of the PLC, decimal').argParser(
-        whole(1, 65535),
-      ),
-    )
-    .addOption(new Option('--udp', 'UDP; without it TCP'))
-    .addOption(new Option('--serial <path>', 'serial port instead, e.g. COM3 or /dev/ttyUSB0'))
     .addOption(profileOption().default('generic'))
     .addOption(frameOption("frame; default: the profile's", frameNames))
   addCodeOptions(command)
@@ -127,13 +151,17 @@ export function addConnectionOptions(command: Command): Command {
     .addOption(xyRadixOption())
     .addOption(wRadixOption())
     .addOption(new Option('--password', `ask for the remote password; without it ${PASSWORD} is used, if set`))
+}
+
+function addLineOptions(command: Command): void {
   addSerialLineOptions(command.optionsGroup('Serial line, also behind a device server:'))
-  return command
-    .addOption(
-      new Option('--message-wait <ms>', '1C: the PLC waits so long before it answers; 0 to 150').argParser(
-        whole(0, 150),
-      ),
-    )
+  command.addOption(
+    new Option('--message-wait <ms>', '1C: the PLC waits so long before it answers; 0 to 150').argParser(whole(0, 150)),
+  )
+}
+
+function addRouteOptions(command: Command): void {
+  command
     .optionsGroup('Another station or CPU:')
     .addOption(new Option('--network <number>', 'another network').argParser(whole(0, 255)))
     .addOption(
@@ -157,26 +185,19 @@ export function addConnectionOptions(command: Command): Command {
         '--frame ext: the number of a station whose number means something else, with --station 124',
       ).argParser(whole(0, 65_535)),
     )
-    .optionsGroup('Times and ports:')
-    .addOption(
+}
+
+function addTimeOptions(command: Command): void {
+  onlyFor('melsec', INSTEAD.times, command, () =>
+    command.addOption(
       new Option('--monitoring-timer <ms>', 'time the PLC gives a request; 0 = for ever').argParser(
         whole(0, 16_383_750),
       ),
-    )
-    .addOption(new Option('--local-address <address>', 'address of the network interface to use'))
-    .addOption(
-      new Option('--local-port <number>', "fixed port of this computer, when the PLC's entry names one").argParser(
-        whole(1, 65535),
-      ),
-    )
-    .addOption(choice('--probe <name>', 'request that proves the connection (default: auto)', probeKinds))
-    .addOption(new Option('--timeout <ms>', 'time for an answer (default: 3000)').argParser(whole(1, 3_600_000)))
-    .addOption(
-      new Option('--connect-timeout <ms>', 'time for the connection').default(5000).argParser(whole(1, 3_600_000)),
-    )
-    .optionsGroup('Output:')
-    .addOption(new Option('--trace', 'show every frame, explained, on the error output'))
-    .addOption(jsonOption())
+    ),
+  )
+  const names = [...new Set([...probeKinds, ...jwProbeKinds])]
+  const description = `request that proves the connection; MELSEC ${probeKinds.join(', ')} (default: auto), Sharp JW ${jwProbeKinds.join(', ')} (default: writeMode)`
+  command.addOption(choice('--probe <name>', description, names))
 }
 
 export const encodingOption = (description: string) => choice('--encoding <name>', description, encodings)
@@ -207,9 +228,6 @@ function moduleIo(text: string): number {
   throw new InvalidArgumentError('It is a hexadecimal number such as 3E1, or a name.')
 }
 
-/** Names the PLC when no option does. */
-const VARIABLE = 'MELSEC_JW_PLC'
-
 /** Remote password: not an option, because the arguments of a program are seen by everybody on the computer. */
 const PASSWORD = 'MELSEC_JW_PASSWORD'
 
@@ -228,47 +246,10 @@ export async function simulatedPassword(terminal: Terminal): Promise<string> {
   return terminal.ask('Remote password of the simulated PLC: ', { hidden: true })
 }
 
-/** Address and port: both from the options, or both from the environment, never one from each. */
-export function peerOf({ plc, host, port }: ConnectionOptions): { readonly host: string; readonly port: number } {
-  if (plc !== undefined && host !== undefined) throw badPeer('Give --plc or --host, not both.', 'plc')
-  const text = plc ?? (host === undefined && port === undefined ? process.env[VARIABLE] : undefined)
-  const given = text === undefined ? {} : splitPeer(text)
-  if (given.port !== undefined && port !== undefined) {
-    throw badPeer(`The port is given twice, as ${given.port} and as ${port}.`, 'port')
-  }
-  const found = { host: host ?? given.host, port: port ?? given.port }
-  if (found.host === undefined || found.host === '') {
-    throw badPeer('Which PLC? Give its address and port, e.g. --plc 192.168.3.39:5010.', 'host')
-  }
-  if (found.port === undefined) {
-    const example = `--plc ${found.host}:5010`
-    throw badPeer(
-      `Which port of ${found.host}? Give the port of its SLMP (MC protocol) entry, e.g. ${example}.`,
-      'port',
-    )
-  }
-  return { host: found.host, port: found.port }
-}
-
-function badPeer(message: string, option: string): RequestError {
-  return new RequestError('BAD_OPTION', message, option)
-}
-
-/** `host`, `host:port`, `[IPv6]:port`, IPv6. */
-function splitPeer(text: string): { readonly host?: string; readonly port?: number } {
-  const [, bracketed, plain, digits] = /^(?:\[([^\]]*)\]|([^:]*))(?::(\d+))?$/.exec(text.trim()) ?? []
-  const host = bracketed ?? plain ?? text.trim()
-  if (digits === undefined) return { host }
-  const port = Number(digits)
-  if (port >= 1 && port <= 65535) return { host, port }
-  throw badPeer(`${digits} is not a port: 1 to 65535.`, 'port')
-}
+type Allowed = Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'>
 
 /** The client's options; `allow` is what the command itself needs. */
-export function clientOptions(
-  options: ConnectionOptions & FormatOptions,
-  allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'> = {},
-): MelsecClientOptions {
+export function clientOptions(options: ConnectionOptions & FormatOptions, allow: Allowed = {}): MelsecClientOptions {
   return {
     ...wayTo(options),
     ...codeOf(options),
@@ -286,13 +267,13 @@ export function clientOptions(
       'monitoringTimer',
       'localAddress',
       'localPort',
-      'probe',
       'timeout',
       'messageFormat',
       'messageWait',
     ]),
     // Commander has it as true without the option.
     ...(options.sumCheck === false ? { sumCheck: false } : {}),
+    ...(options.probe === undefined ? {} : { probe: named('probe', options.probe, probeKinds) }),
     ...allow,
   }
 }
@@ -307,7 +288,7 @@ function wayTo(options: ConnectionOptions): NetworkPlc | SerialPlc {
     return { serial: { ...line, path } }
   }
   const server = Object.keys(line).length === 0 ? {} : { serial: line }
-  return { ...peerOf(options), ...server, ...(udp === true ? { transport: 'udp' } : {}) }
+  return { ...peerOf(options, 'melsec'), ...server, ...(udp === true ? { transport: 'udp' } : {}) }
 }
 
 /** The data code. Of a serial frame the message format says it. */
@@ -319,41 +300,21 @@ function codeOf({ ascii, profile = 'generic', frame = profiles[profile].frame }:
 /** e.g. `tcp 192.168.3.39:5010`, `serial /dev/ttyUSB0` */
 export function peerText(options: ConnectionOptions): string {
   if (options.serial !== undefined) return `serial ${options.serial}`
-  const { host, port } = peerOf(options)
-  return `${options.udp === true ? 'udp' : 'tcp'} ${host.includes(':') ? `[${host}]` : host}:${port}`
+  return networkText(options, 'melsec')
 }
 
 /** Connects, does `work`, and closes whatever happens. */
 export async function withClient<T>(
   terminal: Terminal,
   options: ConnectionOptions & FormatOptions,
-  allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'>,
+  allow: Allowed,
   work: (client: MelsecClient) => Promise<T>,
   /** Before it connects: to miss nothing that comes at once. */
   prepare: (client: MelsecClient) => void = () => {},
 ): Promise<T> {
   const password = await passwordOf(terminal, options)
   const client = createMelsecClient({ ...clientOptions(options, allow), ...given({ password }, ['password']) })
-  if (options.trace === true) {
-    client.on('trace', ({ time, direction, text }) => {
-      terminal.error(`${new Date(time).toISOString()} ${direction}\n${text}\n`)
-    })
-  }
-  try {
-    prepare(client)
-    // A deadline of its own: it holds the attempt and the answer that proves the connection, and says why it failed.
-    await client.connect({ timeout: options.connectTimeout + (options.timeout ?? USUAL_TIME) })
-    return await work(client)
-  } finally {
-    await client.close()
-  }
-}
-
-/** ms for the answer that proves the connection, when nobody says how long. */
-const USUAL_TIME = 3000
-
-const nowhere: OpenTransport = () => {
-  throw new Error('There is no way to a PLC: only what is refused before it is sent counts.')
+  return connected(terminal, options, client, work, prepare)
 }
 
 /**
@@ -363,15 +324,27 @@ const nowhere: OpenTransport = () => {
  */
 export async function refuseUnsent(
   options: ConnectionOptions,
-  allow: Pick<MelsecClientOptions, 'allowWrites' | 'allowControl'>,
+  allow: Allowed,
   call: (client: MelsecClient) => Promise<unknown>,
 ): Promise<void> {
-  const client = createMelsecClient({ ...clientOptions(options, allow), openTransport: nowhere })
-  try {
-    await call(client)
-  } catch (error) {
-    if (error instanceof RequestError || !(error instanceof PlcError)) throw error
-  } finally {
-    await client.close()
+  await refusedUnsent(createMelsecClient({ ...clientOptions(options, allow), openTransport: nowhere }), call)
+}
+
+/** What each need allows. */
+const ALLOWED: Readonly<Record<Need, Allowed>> = {
+  reading: {},
+  writing: { allowWrites: true },
+  control: { allowControl: true },
+  // Parameters of a MELSEC are written as whatever they are in.
+  parameters: {},
+}
+
+/** A MELSEC PLC, for what is done with one of any family. */
+export function melsecPlc(terminal: Terminal, options: ConnectionOptions & FormatOptions): Plc<MelsecClient> {
+  return {
+    text: peerText(options),
+    offline: () => createMelsecClient(clientOptions(options)),
+    unsent: (need, call) => refuseUnsent(options, ALLOWED[need], call),
+    with: (need, work) => withClient(terminal, options, ALLOWED[need], work),
   }
 }

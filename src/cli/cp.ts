@@ -1,7 +1,14 @@
 import { type MakeCommand, newCommand, perform } from './command'
 import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
-import { addChangeOptions, type ChangeOptions, confirmChange, FILE_ARGUMENT, filePasswordOf } from './file-options'
+import {
+  aboutFiles,
+  addChangeOptions,
+  type ChangeOptions,
+  confirmChange,
+  FILE_ARGUMENT,
+  filePasswordOf,
+} from './file-options'
 import { json } from './output'
 import type { Terminal } from './terminal'
 
@@ -13,7 +20,7 @@ export const cpCommand: MakeCommand = (run) => {
     .argument('<from>', FILE_ARGUMENT)
     .argument('<to>', 'drive and path of the copy, which must not exist')
   return addChangeOptions(command).action((from: string, to: string, options: ChangeOptions) =>
-    perform(run, options, () => copy(run.terminal, from, to, options)),
+    perform(run, options, () => aboutFiles(options, () => copy(run.terminal, from, to, options))),
   )
 }
 

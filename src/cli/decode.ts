@@ -1,10 +1,13 @@
-import { explainFrame, explainJwFrame, formatExplanation } from '../entry/codec'
-import { type DataCode, frameNames, type ProfileId, RequestError } from '../index'
+import type { Command } from 'commander'
+import { type ExplainJwOptions, explainFrame, explainJwFrame, formatExplanation } from '../entry/codec'
+import { type DataCode, frameNames, type JwHeader, type ProfileId, RequestError } from '../index'
 import { bytesOfText, pastedBytes } from './bytes'
 import { type MakeCommand, newCommand, perform } from './command'
-import { addDigitOptions, jsonOption, profileOption, wRadixOption } from './connection-options'
+import { addDigitOptions, profileOption, wRadixOption } from './connection-options'
 import { exitCodes } from './exit-code'
-import { choice } from './option'
+import { byFamily, type FamilyOptions, familyOption, onlyFor } from './family'
+import { headerOption, markerOption } from './jw/connection'
+import { choice, jsonOption } from './option'
 import { json } from './output'
 import type { Terminal } from './terminal'
 
@@ -14,7 +17,7 @@ const examples = [
   "decode --text '500000FF03FF000018001004010000D*0001000001'",
   'decode --frame 1E 01FF0A00640000002044 0300',
   "decode '<ENQ>00FFBR0M00100A<CR><LF>'",
-  'decode --frame JW 4700240000080400',
+  'decode --family jw 4700240000080400',
   "decode '<Buffer 50 00 00 ff ff 03 00 0c 00 10 00 01 04 00 00 64 00 00 a8 01 00>'",
   'decode -            (reads the digits, or a hex dump, from the standard input)',
 ]
@@ -22,7 +25,7 @@ const examples = [
 type ExplainOptions = NonNullable<Parameters<typeof explainFrame>[1]>
 type Explanation = ReturnType<typeof explainFrame>
 
-interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wRadix'> {
+interface DecodeOptions extends FamilyOptions, Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wRadix'> {
   readonly frame?: (typeof FRAMES)[number]
   readonly format?: (typeof FORMATS)[number]
   readonly sumCheck?: boolean
@@ -30,6 +33,8 @@ interface DecodeOptions extends Pick<ExplainOptions, 'asciiXy' | 'asciiZr' | 'wR
   readonly registration?: string
   readonly text?: boolean
   readonly code?: DataCode
+  readonly header?: JwHeader
+  readonly marker?: 'once' | 'each'
   readonly profile: ProfileId
   readonly json?: boolean
 }
@@ -50,33 +55,56 @@ export const decodeCommand: MakeCommand = (run) => {
       "bytes of one or several frames: hexadecimal digits, a hex dump, <Buffer ...> of Node.js, b'...' of Python, characters with <ENQ>, <CR> and so on; - for the standard input",
     )
     .option('--request <hex>', 'the request that the frame answers')
+    .addOption(familyOption())
+    .addOption(choice('--frame <name>', 'frame; ext is station extension, JW is --family jw', FRAMES))
+  onlyFor('melsec', 'The messages of a Sharp JW have one form, in binary: leave it out.', command, addMelsecOptions)
+  onlyFor('jw', 'Say --family jw with it, or leave it out.', command, () =>
+    command.addOption(headerOption()).addOption(markerOption()),
+  )
+  command.addOption(jsonOption())
+  return command.action((texts: readonly string[], options: DecodeOptions) =>
+    perform(run, options, () =>
+      byFamily(command, familyOf(options), {
+        melsec: () => decode(run.terminal, texts, options, explainFrame),
+        jw: () => decode(run.terminal, texts, options, explainJwFrame),
+      }),
+    ),
+  )
+}
+
+function addMelsecOptions(command: Command): void {
+  command
     .option('--registration <hex>', 'the Entry Monitor Device before it, when the frame answers an Execute Monitor')
     .option('--text', 'the arguments are the characters of frames in ASCII code, not hexadecimal digits')
-    .addOption(choice('--frame <name>', 'frame; ext is station extension, JW the commands of a Sharp JW-255CM', FRAMES))
     .addOption(choice('--format <format>', 'of 1C, 3C and 4C; told by the frame', FORMATS))
     .option('--sum-check', '1C, 3C and 4C: with sum check code; told by the frame where it can be')
     .option('--no-sum-check', '1C, 3C and 4C: without sum check code')
     .addOption(choice('--code <code>', 'data code', ['binary', 'ascii']))
     .addOption(profileOption().default('generic'))
   addDigitOptions(command).addOption(wRadixOption())
-  command.addOption(jsonOption())
-  return command.action((texts: readonly string[], options: DecodeOptions) =>
-    perform(run, options, () => decode(run.terminal, texts, options)),
-  )
 }
 
-async function decode(terminal: Terminal, texts: readonly string[], options: DecodeOptions): Promise<number> {
+/** `--frame JW` says the family, too. @throws RequestError BAD_OPTION when both are given and do not agree */
+function familyOf({ family, frame }: DecodeOptions): FamilyOptions {
+  if (frame === 'JW') return { family: 'jw' }
+  if (family === 'jw' && frame !== undefined) {
+    throw new RequestError('BAD_OPTION', `${frame} is no frame of a Sharp JW: leave --frame out.`, 'frame')
+  }
+  return { family }
+}
+
+async function decode(
+  terminal: Terminal,
+  texts: readonly string[],
+  options: DecodeOptions,
+  explainOne: (bytes: Buffer, settings: ReturnType<typeof explainOptions>) => Explanation,
+): Promise<number> {
   const given = texts.length === 1 && texts[0] === '-' ? await terminal.input() : texts.join(' ')
   // No frame in ASCII code begins with it: there it stands around a control code.
   const pieces = (text: string, what: string) =>
     options.text === true && !/^\s*</.test(text) ? [bytesOfText(text)] : pastedBytes(text, what)
   const settings = explainOptions(options, (text, what) => Buffer.concat(pieces(text, what)))
-  const isJw = options.frame === 'JW'
-  if (isJw && (options.format ?? options.sumCheck) !== undefined) {
-    throw new RequestError('BAD_OPTION', '--format and --sum-check are of 1C, 3C and 4C frames.', 'format')
-  }
-  const explain = isJw ? explainJwFrame : explainFrame
-  const frames = explainPieces(pieces(given, 'the frame'), (rest) => explain(rest, settings))
+  const frames = explainPieces(pieces(given, 'the frame'), (rest) => explainOne(rest, settings))
   const wrong = frames.some(({ fault }) => fault !== undefined)
   if (options.json === true) terminal.out(json({ frames }))
   else terminal.out(frames.map(formatExplanation).join('\n\n'))
@@ -86,14 +114,20 @@ async function decode(terminal: Terminal, texts: readonly string[], options: Dec
   return wrong ? exitCodes.protocol.code : exitCodes.ok.code
 }
 
-function explainOptions(options: DecodeOptions, bytes: (text: string, what: string) => Buffer): ExplainOptions {
+function explainOptions(
+  options: DecodeOptions,
+  bytes: (text: string, what: string) => Buffer,
+): ExplainOptions & Omit<ExplainJwOptions, 'direction'> {
   const { frame, format, sumCheck, code, profile, request, registration, asciiXy, asciiZr, wRadix } = options
+  const { header, marker } = options
   return {
     profile,
     ...(frame === undefined || frame === 'JW' ? {} : { frame }),
     ...(format === undefined ? {} : { format: formats[format] }),
     ...(sumCheck === undefined ? {} : { sumCheck }),
     ...(code === undefined ? {} : { code }),
+    ...(header === undefined ? {} : { header }),
+    ...(marker === undefined ? {} : { marker }),
     ...(asciiXy === undefined ? {} : { asciiXy }),
     ...(asciiZr === undefined ? {} : { asciiZr }),
     ...(wRadix === undefined ? {} : { wRadix }),

@@ -11,10 +11,9 @@ import {
   RequestError,
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { jsonOption } from './connection-options'
 import { endCodeOf, endCodeText } from './end-code'
 import { exitCodes } from './exit-code'
-import { choice } from './option'
+import { choice, jsonOption } from './option'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
 

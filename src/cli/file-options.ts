@@ -2,6 +2,7 @@
 import { type Command, Option } from 'commander'
 import { type FilePath, type FileProgress, RequestError } from '../index'
 import { addConnectionOptions, type ConnectionOptions, peerText } from './connection-options'
+import { onlyOf } from './family'
 import { refusalOf, type Terminal } from './terminal'
 
 /** Password of a file: not an argument, because the arguments of a program are seen by everybody on the computer. */
@@ -9,6 +10,17 @@ const PASSWORD = 'MELSEC_JW_FILE_PASSWORD'
 
 export type FileOptions = ConnectionOptions & { readonly filePassword?: boolean }
 export type ChangeOptions = FileOptions & { readonly yes?: boolean }
+
+/** Why a Sharp JW has none of the commands about files. */
+const NO_FILES = {
+  what: 'files on drives',
+  instead: 'What it calls files are parts of its memory: read F2:012345 --family jw.',
+}
+
+/** Does what is about files. @throws RequestError UNSUPPORTED */
+export function aboutFiles<T>(options: FileOptions, work: () => Promise<T>): Promise<T> {
+  return onlyOf('melsec', NO_FILES, options, work)
+}
 
 /** How a file of the PLC is written, for the help. */
 export const FILE_ARGUMENT = 'drive and path in the PLC, e.g. 4:/LOG/LINE.CSV'

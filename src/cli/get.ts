@@ -6,7 +6,15 @@ import { RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
-import { addFileOptions, FILE_ARGUMENT, type FileOptions, filePasswordOf, nameOf, progressOn } from './file-options'
+import {
+  aboutFiles,
+  addFileOptions,
+  FILE_ARGUMENT,
+  type FileOptions,
+  filePasswordOf,
+  nameOf,
+  progressOn,
+} from './file-options'
 import { json } from './output'
 import type { Terminal } from './terminal'
 
@@ -25,7 +33,7 @@ export const getCommand: MakeCommand = (run) => {
     .optionsGroup('File:')
     .option('--force', 'replace a file of this computer')
   return addFileOptions(command).action((file: string, local: string | undefined, options: GetOptions) =>
-    perform(run, options, () => get(run.terminal, file, local, options)),
+    perform(run, options, () => aboutFiles(options, () => get(run.terminal, file, local, options))),
   )
 }
 

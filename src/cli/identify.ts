@@ -1,17 +1,37 @@
 import { hex } from '../basics/hex'
 import { EndCodeError, type Identity, type MelsecClient, type PlcError, RequestError } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { addConnectionOptions, type ConnectionOptions, peerText, withClient } from './connection-options'
+import {
+  type AnyConnectionOptions,
+  addAnyConnectionOptions,
+  type ConnectionOptions,
+  peerText,
+  withClient,
+} from './connection-options'
 import { exitCodes } from './exit-code'
+import { byFamily } from './family'
+import { jwPlc } from './jw/connection'
+import { identifyJw } from './jw/identify'
 import { errorText, json, table } from './output'
 import type { Terminal } from './terminal'
 
-const examples = ['identify --plc 192.168.3.39:5010', 'identify --plc 192.168.3.250:5010 --profile iq-f --json']
+const examples = [
+  'identify --plc 192.168.3.39:5010',
+  'identify --plc 192.168.3.250:5010 --profile iq-f --json',
+  'identify --plc 192.168.3.60:4000 --family jw',
+]
 
 /** `melsec-jw identify` */
 export const identifyCommand: MakeCommand = (run) => {
-  const command = addConnectionOptions(newCommand('identify', 'connect, and ask the PLC who it is', examples))
-  return command.action((options: ConnectionOptions) => perform(run, options, () => identify(run.terminal, options)))
+  const command = addAnyConnectionOptions(newCommand('identify', 'connect, and ask the PLC who it is', examples))
+  return command.action((options: AnyConnectionOptions) =>
+    perform(run, options, () =>
+      byFamily(command, options, {
+        melsec: () => identify(run.terminal, options),
+        jw: () => identifyJw(run.terminal, options, jwPlc(run.terminal, options)),
+      }),
+    ),
+  )
 }
 
 function identify(terminal: Terminal, options: ConnectionOptions): Promise<number> {

@@ -11,6 +11,7 @@ import {
   withClient,
 } from './connection-options'
 import { exitCodes } from './exit-code'
+import { onlyOf } from './family'
 import { interruption } from './interruption'
 import { choice, whole } from './option'
 import { errorText } from './output'
@@ -23,6 +24,11 @@ const examples = [
 ]
 
 const FORMS = ['words', 'hex', 'text'] as const
+
+const SILENT = {
+  what: 'messages that it sends unasked',
+  instead: 'Read it again and again: read --family jw.',
+}
 
 type ListenOptions = ConnectionOptions &
   Pick<FormatOptions, 'encoding'> & { readonly as: (typeof FORMS)[number]; readonly count?: number }
@@ -41,7 +47,9 @@ export const listenCommand: MakeCommand = (run) => {
     .addOption(choice('--as <form>', 'words (0 to 65535), hex (bytes), or text', FORMS).default('words'))
     .addOption(encodingOption('characters of --as text'))
     .addOption(new Option('--count <number>', 'end after so many').argParser(whole(1, 1_000_000_000)))
-  return command.action((options: ListenOptions) => perform(run, options, () => listen(run.terminal, options)))
+  return command.action((options: ListenOptions) =>
+    perform(run, options, () => onlyOf('melsec', SILENT, options, () => listen(run.terminal, options))),
+  )
 }
 
 async function listen(terminal: Terminal, options: ListenOptions): Promise<number> {

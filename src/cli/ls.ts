@@ -9,6 +9,7 @@ import {
   withClient,
 } from './connection-options'
 import { exitCodes } from './exit-code'
+import { aboutFiles } from './file-options'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
 
@@ -26,7 +27,9 @@ export const lsCommand: MakeCommand = (run) => {
   )
   return addConnectionOptions(command).action((directory: string | undefined, options: ConnectionOptions) =>
     perform(run, options, () =>
-      directory === undefined ? drives(run.terminal, options) : list(run.terminal, directory, options),
+      aboutFiles(options, () =>
+        directory === undefined ? drives(run.terminal, options) : list(run.terminal, directory, options),
+      ),
     ),
   )
 }

@@ -1,5 +1,8 @@
 // Options as commander takes them: numbers, choices, and those that were given.
 import { Argument, InvalidArgumentError, Option } from 'commander'
+import { RequestError } from '../index'
+
+export const jsonOption = () => new Option('--json', 'print one JSON document instead of text')
 
 /** A whole number of an option. */
 export function whole(min: number, max: number): (text: string) => number {
@@ -34,4 +37,15 @@ type Given<T> = { [K in keyof T]?: Exclude<T[K], undefined> }
 export function given<T extends object, K extends keyof T>(options: T, names: readonly K[]): Given<Pick<T, K>> {
   const entries = names.map((name) => [name, options[name]] as const).filter(([, value]) => value !== undefined)
   return Object.fromEntries(entries) as Given<Pick<T, K>>
+}
+
+/** The name among those that one family takes. @throws RequestError BAD_OPTION */
+export function named<T extends string>(option: string, name: string, names: readonly T[]): T {
+  const found = names.find((one) => one === name)
+  if (found !== undefined) return found
+  throw new RequestError(
+    'BAD_OPTION',
+    `--${option} ${name} is of another family: choose one of ${names.join(', ')}.`,
+    option,
+  )
 }

@@ -1,10 +1,12 @@
 import { type ProfileInfo, profileIds, profiles, resolveProfile } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { jsonOption } from './connection-options'
 import { exitCodes } from './exit-code'
-import { choiceArgument } from './option'
+import { type FamilyOptions, familyOption, onlyOf } from './family'
+import { choiceArgument, jsonOption } from './option'
 import { json, table } from './output'
 import type { Terminal } from './terminal'
+
+const NO_PROFILES = { what: 'profiles', instead: 'Say the family of its CPU with --model: jw300 or jw30h.' }
 
 const examples = ['profiles', 'profiles iq-f']
 
@@ -12,12 +14,15 @@ const examples = ['profiles', 'profiles iq-f']
 export const profilesCommand: MakeCommand = (run) =>
   newCommand('profiles', 'the families of PLCs that are known, and what they are like', examples)
     .addArgument(choiceArgument('[id]', 'one of them, with all that is known', profileIds))
+    .addOption(familyOption())
     .addOption(jsonOption())
-    .action((id: (typeof profileIds)[number] | undefined, options: { readonly json?: boolean }) =>
-      perform(run, options, async () => {
-        show(run.terminal, id === undefined ? undefined : resolveProfile(id), options.json === true)
-        return exitCodes.ok.code
-      }),
+    .action((id: (typeof profileIds)[number] | undefined, options: FamilyOptions & { readonly json?: boolean }) =>
+      perform(run, options, () =>
+        onlyOf('melsec', NO_PROFILES, options, async () => {
+          show(run.terminal, id === undefined ? undefined : resolveProfile(id), options.json === true)
+          return exitCodes.ok.code
+        }),
+      ),
     )
 
 function show(terminal: Terminal, profile: ProfileInfo | undefined, asJson: boolean): void {

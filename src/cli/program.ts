@@ -10,6 +10,9 @@ import { exitCodeHelp, exitCodes } from './exit-code'
 import { explainCommand } from './explain'
 import { getCommand } from './get'
 import { identifyCommand } from './identify'
+import { clockCommand } from './jw/clock'
+import { findHeaderCommand } from './jw/find-header'
+import { parametersCommand } from './jw/parameters'
 import { listenCommand } from './listen'
 import { lsCommand } from './ls'
 import { profilesCommand } from './profiles'
@@ -37,6 +40,9 @@ const COMMANDS: readonly MakeCommand[] = [
   cpCommand,
   rmCommand,
   listenCommand,
+  clockCommand,
+  findHeaderCommand,
+  parametersCommand,
   simulateCommand,
   tagsCommand,
   decodeCommand,
@@ -45,7 +51,8 @@ const COMMANDS: readonly MakeCommand[] = [
 ]
 
 const DESCRIPTION =
-  'Talk to Mitsubishi MELSEC PLCs over SLMP (MC protocol: 3E, 4E, station extension and 1E frames), and simulate one. The PLC ' +
+  'Talk to Mitsubishi MELSEC PLCs over SLMP (MC protocol: 3E, 4E, station extension and 1E frames) and serial lines, to Sharp JW PLCs ' +
+  'with --family jw, and simulate one. A MELSEC ' +
   'needs an SLMP entry in its Ethernet parameters; give its address and port with --plc, or once and for all in the environment ' +
   'variable MELSEC_JW_PLC. "melsec-jw help read" explains a command.'
 

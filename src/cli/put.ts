@@ -6,6 +6,7 @@ import { type MakeCommand, newCommand, perform } from './command'
 import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
 import {
+  aboutFiles,
   addChangeOptions,
   type ChangeOptions,
   confirmChange,
@@ -42,7 +43,7 @@ export const putCommand: MakeCommand = (run) => {
       ).default('new'),
     )
   return addChangeOptions(command).action((local: string, file: string, options: PutOptions) =>
-    perform(run, options, () => put(run.terminal, local, file, options)),
+    perform(run, options, () => aboutFiles(options, () => put(run.terminal, local, file, options))),
   )
 }
 

@@ -1,7 +1,14 @@
 import { type MakeCommand, newCommand, perform } from './command'
 import { peerText, refuseUnsent, withClient } from './connection-options'
 import { exitCodes } from './exit-code'
-import { addChangeOptions, type ChangeOptions, confirmChange, FILE_ARGUMENT, filePasswordOf } from './file-options'
+import {
+  aboutFiles,
+  addChangeOptions,
+  type ChangeOptions,
+  confirmChange,
+  FILE_ARGUMENT,
+  filePasswordOf,
+} from './file-options'
 import { json } from './output'
 import type { Terminal } from './terminal'
 
@@ -15,7 +22,7 @@ export const rmCommand: MakeCommand = (run) => {
     )
     .argument('<file...>', FILE_ARGUMENT)
   return addChangeOptions(command).action((files: readonly string[], options: ChangeOptions) =>
-    perform(run, options, () => remove(run.terminal, files, options)),
+    perform(run, options, () => aboutFiles(options, () => remove(run.terminal, files, options))),
   )
 }
 

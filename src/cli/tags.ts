@@ -20,9 +20,9 @@ import {
   tagFileKinds,
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
-import { jsonOption, profileOption, wRadixOption, xyRadixOption } from './connection-options'
+import { profileOption, wRadixOption, xyRadixOption } from './connection-options'
 import { exitCodes } from './exit-code'
-import { choice, choiceArgument } from './option'
+import { choice, choiceArgument, jsonOption } from './option'
 import { json, table } from './output'
 import { refusalOf, type Terminal } from './terminal'
 

@@ -1,5 +1,5 @@
 // A value as it is typed on the command line, by the type of its item.
-import { parseType, valueTypes } from '../entry/address'
+import { byteTypes, parseByteType, valueTypes } from '../entry/address'
 import { type PlcValue, type ReadValue, RequestError } from '../index'
 
 /** Type and count of an item: see `ItemExplanation`. */
@@ -29,8 +29,11 @@ export function typedValue(item: Wanted, text: string): ReadValue {
   return parts.map((part) => single(item, type, part))
 }
 
+/** Of all types, those of one byte too. */
+const types = { ...valueTypes, ...byteTypes }
+
 function single(item: Wanted, type: string, text: string): PlcValue {
-  const { kind } = valueTypes[parseType(type).name]
+  const { kind } = types[parseByteType(type).name]
   switch (kind) {
     case 'text':
       return text

@@ -1,9 +1,7 @@
 import {
-  createMelsecClient,
   type DeviceExplanation,
   EndCodeError,
-  type ItemExplanation,
-  type MelsecClient,
+  type JwItemExplanation,
   type PlcError,
   type ReadValue,
   RequestError,
@@ -12,16 +10,17 @@ import {
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import {
-  addConnectionOptions,
+  type AnyConnectionOptions,
+  addAnyConnectionOptions,
   addFormatOptions,
-  type ConnectionOptions,
-  clientOptions,
   type FormatOptions,
-  peerText,
-  withClient,
+  melsecPlc,
 } from './connection-options'
 import { exitOfPlan, exitOfResults } from './exit-code'
+import { byFamily } from './family'
+import { jwPlc } from './jw/connection'
 import { errorText, itemErrorText, json, planText, table, valueText } from './output'
+import type { Explained, ItemClient, Plc } from './session'
 import { refusalOf, type Terminal } from './terminal'
 import { typedValue } from './typed-value'
 
@@ -30,16 +29,17 @@ const examples = [
   'write --plc 192.168.3.39:5010 --profile iq-r M0=ON D200=0x1F --yes',
   "write --plc 192.168.3.39:5010 --profile iq-r 'D300:INT[3]=1,2,3' 'D130:STRING(20)=Apple juice'",
   "write --plc 192.168.3.39:5010 --profile iq-r Line1.Speed=12.5 'Line1.Values[0]:INT[3]=1,2,3'",
+  'write --plc 192.168.3.60:4000 --family jw 09012:INT=650 004033=ON',
 ]
 
-type WriteOptions = ConnectionOptions &
+type WriteOptions = AnyConnectionOptions &
   FormatOptions & { readonly yes?: boolean; readonly readModifyWrite?: boolean; readonly plan?: boolean }
 
 /** What was typed, understood as far as it is without the PLC. */
 interface Typed {
   readonly item: string
   readonly text: string
-  readonly explanation: ItemExplanation
+  readonly explanation: Explained
   /** Missing: the type is the PLC's business. */
   readonly value?: ReadValue
 }
@@ -65,14 +65,19 @@ export const writeCommand: MakeCommand = (run) => {
     .option('-y, --yes', 'do not ask')
     .option('--plan', 'do not connect and write nothing: print the requests that would write it')
     .option('--read-modify-write', 'allow bits of words (D100.3): the word is read, changed and written back')
-  addFormatOptions(addConnectionOptions(command))
+  addFormatOptions(addAnyConnectionOptions(command))
   return command.action((texts: readonly string[], options: WriteOptions) =>
-    perform(run, options, () => write(run.terminal, texts, options)),
+    perform(run, options, () =>
+      byFamily(command, options, {
+        melsec: () => write(run.terminal, texts, options, melsecPlc(run.terminal, options)),
+        jw: () => write(run.terminal, texts, options, jwPlc(run.terminal, options)),
+      }),
+    ),
   )
 }
 
-async function write(terminal: Terminal, texts: readonly string[], options: WriteOptions): Promise<number> {
-  const checking = createMelsecClient(clientOptions(options))
+async function write(terminal: Terminal, texts: readonly string[], options: WriteOptions, plc: Plc): Promise<number> {
+  const checking = plc.offline()
   const typed = texts.map((text) => typedOf(checking, text))
   if (options.plan === true) {
     const plan = checking.planWrite(typed.map(plannedEntry), how(options)).describe()
@@ -84,10 +89,10 @@ async function write(terminal: Terminal, texts: readonly string[], options: Writ
   }
   const assignments = typed.every(isComplete) ? typed.map(deviceAssignment) : undefined
   // Devices are understood before anybody is asked or connected. Of labels only the PLC knows the types.
-  if (assignments !== undefined) await confirm(terminal, checking, assignments, options)
-  return withClient(terminal, options, { allowWrites: true }, async (client) => {
+  if (assignments !== undefined) await confirm(terminal, checking, assignments, options, plc.text)
+  return plc.with('writing', async (client) => {
     const all = assignments ?? (await assignmentsOf(client, typed))
-    if (assignments === undefined) await confirm(terminal, client, all, options)
+    if (assignments === undefined) await confirm(terminal, client, all, options, plc.text)
     const results = await client.writeEach(entriesOf(all), how(options))
     show(terminal, options, all, results)
     return exitOfResults(results)
@@ -106,16 +111,17 @@ function how(options: WriteOptions) {
 /** @throws RequestError NOT_PERMITTED when it is not confirmed */
 async function confirm(
   terminal: Terminal,
-  client: MelsecClient,
+  client: ItemClient,
   assignments: readonly Assignment[],
   options: WriteOptions,
+  peer: string,
 ): Promise<void> {
   const { notes } = client.planWrite(entriesOf(assignments), how(options)).describe()
-  const refusal = await refusalOf(terminal, options.yes === true, questionOf(assignments, notes, options))
+  const refusal = await refusalOf(terminal, options.yes === true, questionOf(assignments, notes, peer))
   if (refusal !== undefined) throw new RequestError('NOT_PERMITTED', `Nothing was written. ${refusal}`, '--yes')
 }
 
-function typedOf(client: MelsecClient, text: string): Typed {
+function typedOf(client: ItemClient, text: string): Typed {
   const at = text.indexOf('=')
   if (at < 0) {
     throw new RequestError('BAD_VALUE', `${JSON.stringify(text)} has no value: write ${text}=value, e.g. D100=5.`, text)
@@ -129,7 +135,7 @@ function typedOf(client: MelsecClient, text: string): Typed {
 
 function isComplete(
   typed: Typed,
-): typed is Typed & { readonly explanation: DeviceExplanation; readonly value: ReadValue } {
+): typed is Typed & { readonly explanation: DeviceExplanation | JwItemExplanation; readonly value: ReadValue } {
   return typed.value !== undefined
 }
 
@@ -139,15 +145,20 @@ function deviceAssignment({
   value,
 }: {
   item: string
-  explanation: DeviceExplanation
+  explanation: DeviceExplanation | JwItemExplanation
   value: ReadValue
 }): Assignment {
-  const { title, type, first, last } = explanation
-  return { item, what: first === last ? title : `${title} ${first} to ${last}`, type, value }
+  return { item, what: whatOf(explanation), type: explanation.type, value }
+}
+
+function whatOf(explanation: DeviceExplanation | JwItemExplanation): string {
+  if ('place' in explanation) return explanation.place
+  const { title, first, last } = explanation
+  return first === last ? title : `${title} ${first} to ${last}`
 }
 
 /** With the types of the labels, as the PLC says them. */
-async function assignmentsOf(client: MelsecClient, typed: readonly Typed[]): Promise<Assignment[]> {
+async function assignmentsOf(client: ItemClient, typed: readonly Typed[]): Promise<Assignment[]> {
   const labels = typed.filter((one) => !isComplete(one)).map(({ item }) => item)
   const results = (await client.read(labels)).values()
   return typed.map((one): Assignment => {
@@ -166,9 +177,9 @@ function entriesOf(assignments: readonly Assignment[]): WriteEntry[] {
   return assignments.map(({ item, value }) => ({ item, value }))
 }
 
-function questionOf(assignments: readonly Assignment[], notes: readonly string[], options: WriteOptions): string {
+function questionOf(assignments: readonly Assignment[], notes: readonly string[], peer: string): string {
   const rows = assignments.map(({ item, what, type, value }) => [item, what, type, `= ${valueText(value, type)}`])
-  return [`Write to ${peerText(options)}:`, table(rows, '  '), ...notes].join('\n')
+  return [`Write to ${peer}:`, table(rows, '  '), ...notes].join('\n')
 }
 
 function show(

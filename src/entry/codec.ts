@@ -25,6 +25,23 @@ export {
 export { type JwCommand, type JwCommandName, type JwCommands, jwCommands } from '../jw/commands/commands'
 export { jwAnswerToJson, jwMessageFromJson, jwMessageToJson } from '../jw/commands/message-json'
 export { type ExplainJwOptions, explainJwFrame } from '../jw/explain-frame'
+export { type Dl1Settings, dl1Parameters } from '../jw/parameters/dl1'
+export { type Dl9Settings, type Dl9Slave, type Dl9Switches, dl9Parameters } from '../jw/parameters/dl9'
+export {
+  type FlNetAddress,
+  type FlNetSettings,
+  type FlNetSettingsRead,
+  flNetParameters,
+  type ParametersInDataMemory,
+} from '../jw/parameters/fl-net'
+export type { ParameterAddress, StoredAddress } from '../jw/parameters/memory-address'
+export type {
+  ParameterMap,
+  ParameterProblem,
+  ParameterRow,
+  ReadParameters,
+  WrittenParameters,
+} from '../jw/parameters/parameter-map'
 export {
   type ACompatibleCommandName,
   type ACompatibleCommands,

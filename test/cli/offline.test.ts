@@ -214,7 +214,7 @@ describe('decode', () => {
     [['decode', '<FOO>00FF'], /the frame: <FOO> is no control code: STX, ETX/],
     [['decode', '<ACK>00FF', '--frame', '1C', '--format', '5'], /The 1C frame has formats 1, 4, not 5/],
     [['decode', REQUEST, '--frame', '3E', '--sum-check'], /The 3E frame has no sumCheck/],
-    [['decode', '4700', '--frame', 'JW', '--format', '4'], /--format and --sum-check are of 1C/],
+    [['decode', '4700', '--frame', 'JW', '--format', '4'], /--format is of MELSEC only/],
     [['decode'], /missing required argument/],
   ])('%j is wrong use', async (args, message) => {
     const { code, out, err } = await runHere(args)

@@ -4,6 +4,7 @@ import * as address from '../../src/entry/address'
 import * as codec from '../../src/entry/codec'
 import * as simulation from '../../src/entry/simulator'
 import {
+  createJwSimulator,
   createLineSimulator,
   createPlcSimulator,
   type LineSimulator,
@@ -23,6 +24,8 @@ const IMPORT = /^import (\{[^}]*\}) from '([^']+)'$/gm
 const READERS_PORT = 5010
 /** And an FX3, which speaks 1E only. */
 const READERS_FX3_PORT = 5551
+/** And a Sharp JW. */
+const READERS_JW_PORT = 4000
 /** Two stations on a serial line, at a port of the computer and behind a device server. */
 const READERS_SERIAL_PORT = '/dev/ttyUSB0'
 const READERS_DEVICE_SERVER = '192.168.3.80:4001'
@@ -50,6 +53,9 @@ export class Bench {
     const fx3 = createPlcSimulator({ profile: 'fx3' })
     await fx3.listen()
     this.#simulators.set(fx3, READERS_FX3_PORT)
+    const jw = createJwSimulator({ writeMode: 1 })
+    await jw.listen()
+    this.#simulators.set(jw, READERS_JW_PORT)
     this.#pair = await ttyPair()
     this.#line = createLineSimulator({
       messageFormat: 4,

@@ -14,6 +14,7 @@ const layout = { stations: list(STATIONS, station) } as const
 
 /** Settings of DL1: the stations 00, 01 and so on, as many as are linked. */
 export interface Dl1Settings {
+  /** Stations 00, 01 and so on. */
   readonly stations: readonly MessageOf<typeof station>[]
 }
 

@@ -44,6 +44,7 @@ export type Dl9Slave = MessageOf<typeof offsets> & MessageOf<typeof bytes>
 
 /** Settings of DL9: the slaves 01, 02 and so on. */
 export interface Dl9Settings {
+  /** Slaves 01, 02 and so on. */
   readonly slaves: readonly Dl9Slave[]
 }
 

@@ -25,6 +25,7 @@ const DATA_MEMORY = 0xff
 
 /** Instead of an IP address: where in the data memory of the CU the unit finds its parameters, as the parameter holds it. */
 export interface ParametersInDataMemory {
+  /** Where they are. */
   readonly parameters: StoredAddress
 }
 

@@ -12,6 +12,7 @@ import { FILE_REGISTERS, type JwAddress, LAST_FILE, PAGE, pageOfRegisters, regis
 export interface StoredAddress {
   /** 00H: file 0; above it the 64 KB pages of the file registers. */
   readonly fileNumber: number
+  /** In it, as the unit counts. */
   readonly fileAddress: number
 }
 

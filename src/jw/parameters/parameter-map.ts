@@ -29,7 +29,9 @@ export interface ParameterProblem {
 
 /** Parameters to be written. */
 export interface WrittenParameters {
+  /** With reserved parameters between settings as 0. */
   readonly blocks: readonly ParameterBlock[]
+  /** What is allowed, and perhaps not meant. */
   readonly warnings: readonly ParameterProblem[]
 }
 
@@ -43,11 +45,15 @@ export interface ReadParameters<R> {
 
 /** One parameter in words. */
 export interface ParameterRow {
+  /** Of the first byte. */
   readonly address: number
+  /** Bytes. */
   readonly length: number
   /** Path of the setting; of a reserved parameter the name of its field. */
   readonly setting: string
+  /** As hexadecimal digits. */
   readonly bytes: string
+  /** What they mean. */
   readonly text: string
 }
 
@@ -65,7 +71,10 @@ export interface ParameterMapParts<R, A> {
   words?(leaf: Leaf, about: A | undefined, index: number | undefined): string | undefined
 }
 
-/** Settings as they are given (`S`) and read (`R`), to parameters and back. */
+/**
+ * Settings as they are given (`S`) and read (`R`), to parameters and back.
+ * @experimental How it is made may change in any version; `write`, `read`, `explain` and `areas` do not.
+ */
 export class ParameterMap<S extends object, R extends S, A> {
   readonly unit: string
   readonly manual: string
