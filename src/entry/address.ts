@@ -9,6 +9,7 @@ export {
   type RefusedItem,
   tryParseItem,
 } from '../client/item/item'
+export { type DeviceOffset, moveItem } from '../client/item/move'
 export type { Item, ItemOptions } from '../client/item/parts'
 export {
   formatJwItem,
