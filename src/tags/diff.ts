@@ -15,7 +15,7 @@ import {
   type TagCheckOptions,
   type TagFacts,
 } from './table/check'
-import { itemOfTag, type Tag, type TagField, tagFields } from './table/tag'
+import { itemOfTag, type Tag, type TagField, type TagItem, tagFields } from './table/tag'
 
 /** One field that changes; undefined where it is not there. */
 export interface TagFieldChange {
@@ -131,7 +131,8 @@ export function mergeTags(table: readonly Tag[], imported: readonly Tag[], optio
   return merged.map((tag) => structuredClone(tag))
 }
 
-function compared(table: readonly Tag[], imported: readonly Tag[], options: TagCheckOptions): Compared {
+function compared(table: readonly Tag[], imported: readonly Tag[], given: TagCheckOptions): Compared {
+  const options = given.readItem === undefined ? given : { ...given, readItem: remembering(given.readItem) }
   checkTags(table, { template: true })
   checkTags(imported, { template: true })
   const found = new Map(imported.map((tag) => [sameName(tag.name), tag]))
@@ -195,6 +196,27 @@ function isSameItem(tag: Tag, imported: Tag, { readItem }: TagCheckOptions): boo
   )
   if (before?.device === undefined || now === undefined) return false
   return isSame({ ...before, readOnly: undefined }, { ...now, readOnly: undefined })
+}
+
+/** The same item is asked for as it was, as it is imported, and as it will be. */
+function remembering(readItem: ReadTagItem): ReadTagItem {
+  const known = new Map<string, () => TagFacts>()
+  const asked = (item: TagItem) => {
+    try {
+      const facts = readItem(item)
+      return () => facts
+    } catch (error) {
+      return () => {
+        throw error
+      }
+    }
+  }
+  return (item) => {
+    const key = JSON.stringify(item)
+    const answer = known.get(key) ?? asked(item)
+    known.set(key, answer)
+    return answer()
+  }
 }
 
 function factsOf(tag: Tag, readItem: ReadTagItem): TagFacts | undefined {
