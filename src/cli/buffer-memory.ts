@@ -19,7 +19,8 @@ type MemoryOptions = ConnectionOptions & {
 
 const NO_MODULES = {
   what: 'buffer memory of modules',
-  instead: 'Its buffers are read with request readSpecifiedBuffer, the parameters of its units with parameters read.',
+  instead:
+    'Its specified buffers and ring buffers are reached with buffer, the parameters of its units with parameters.',
 }
 
 /** Whose buffer memory it is, and what it is called. */

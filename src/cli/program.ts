@@ -10,6 +10,7 @@ import { exitCodeHelp, exitCodes } from './exit-code'
 import { explainCommand } from './explain'
 import { getCommand } from './get'
 import { identifyCommand } from './identify'
+import { bufferCommand } from './jw/buffer'
 import { clockCommand } from './jw/clock'
 import { findHeaderCommand } from './jw/find-header'
 import { parametersCommand } from './jw/parameters'
@@ -43,6 +44,7 @@ const COMMANDS: readonly MakeCommand[] = [
   clockCommand,
   findHeaderCommand,
   parametersCommand,
+  bufferCommand,
   simulateCommand,
   tagsCommand,
   decodeCommand,

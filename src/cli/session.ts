@@ -22,11 +22,18 @@ export interface SessionOptions {
   readonly json?: boolean
 }
 
-/** Adds options of times, ports of this computer and output, under their titles. `more`: others of times and ports. */
-export function addSessionOptions(command: Command, more: (command: Command) => unknown = () => {}): Command {
+/**
+ * Adds options of times, ports of this computer and output, under their titles. `more`: others of times and ports;
+ * `trace`: false where the frames are nobody's business.
+ */
+export function addSessionOptions(
+  command: Command,
+  more: (command: Command) => unknown = () => {},
+  { trace = true } = {},
+): Command {
   command.optionsGroup('Times and ports:')
   more(command)
-  return command
+  command
     .addOption(new Option('--local-address <address>', 'address of the network interface to use'))
     .addOption(
       new Option('--local-port <number>', "fixed port of this computer, when the PLC's entry names one").argParser(
@@ -38,8 +45,8 @@ export function addSessionOptions(command: Command, more: (command: Command) => 
       new Option('--connect-timeout <ms>', 'time for the connection').default(5000).argParser(whole(1, 3_600_000)),
     )
     .optionsGroup('Output:')
-    .addOption(new Option('--trace', 'show every frame, explained, on the error output'))
-    .addOption(jsonOption())
+  if (trace) command.addOption(new Option('--trace', 'show every frame, explained, on the error output'))
+  return command.addOption(jsonOption())
 }
 
 /** ms for the answer that proves the connection, when nobody says how long. */

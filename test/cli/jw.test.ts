@@ -6,7 +6,12 @@ import { runHere } from './in-process'
 let plc: JwSimulator
 
 beforeAll(async () => {
-  plc = createJwSimulator({ writeMode: 2, optionUnits: [{ rack: 0, unit: 3, kind: 'dl1' }] })
+  plc = createJwSimulator({
+    writeMode: 2,
+    optionUnits: [{ rack: 0, unit: 3, kind: 'dl1' }],
+    specifiedBuffers: { 1: { file: 1, address: 0o20000, length: 256 } },
+    ringBuffers: { 0: { file: 1, address: 0o40000, length: 8 } },
+  })
   await plc.listen()
 })
 
@@ -301,6 +306,53 @@ describe('parameters', () => {
   })
 })
 
+describe('buffers', () => {
+  const buffer = (answer: string | undefined, ...args: readonly string[]) =>
+    runHere(['buffer', ...args, ...at()], answer)
+
+  test('where one is: the file hexadecimal, the address octal', async () => {
+    const { code, out } = await buffer(undefined, 'info', '1')
+    expect([code, out]).toEqual([0, expect.stringMatching(/^file: 01H\naddress: 020000 octal\nlength: 256$/m)])
+    expect((await buffer(undefined, 'info', '0', '--ring')).out).toMatch(/^address: 040000 octal$/m)
+  })
+
+  test('a specified buffer is read without asking, and written after y', async () => {
+    const no = await buffer('n', 'write', '1', '16', 'AA', '55')
+    expect([no.code, no.questions]).toEqual([
+      2,
+      [expect.stringMatching(/^Write AA 55 to specified buffer 1 from byte 16 on/)],
+    ])
+    expect((await buffer('y', 'write', '1', '16', 'AA', '55')).out).toBe('written: 2\n')
+    const { out, questions } = await buffer('n', 'read', '1', '15', '4')
+    expect([out, questions]).toEqual(['data: 00 AA 55 00\n', []])
+  })
+
+  test('a ring buffer is asked about in both directions: reading takes out', async () => {
+    expect((await buffer('n', 'read', '0', '4', '--ring')).questions[0]).toMatch(
+      /^Take up to 4 bytes out of ring buffer 0/,
+    )
+    expect((await buffer('y', 'write', '0', '01 02 03', '--ring')).out).toMatch(/^written: 3$/m)
+    expect((await buffer('y', 'read', '0', '4', '--ring')).out).toMatch(/^data: 01 02 03$/m)
+    expect(JSON.parse((await buffer('y', 'read', '0', '4', '--ring', '--json')).out)).toMatchObject({
+      data: '',
+      more: false,
+    })
+  })
+
+  test.each([
+    [['read', '1', '0'], /takes the buffer, the first byte/],
+    [['read', '0', '0', '4', '--ring'], /how many bytes at most/],
+    [['read', 'A', '0', '4'], /no decimal number/],
+    [['read', '32', '0', '4'], /buffer/],
+    [['write', '1', '0'], /no bytes/],
+    [['info', '1', '2'], /info takes/],
+    [['erase', '1'], /choose info, read or write/],
+  ])('%j is refused before anybody is asked', async (args, message) => {
+    const { code, err, questions } = await buffer('y', ...args)
+    expect([code, err, questions]).toEqual([2, expect.stringMatching(message), []])
+  })
+})
+
 describe('what the family does not have is refused, with what to do', () => {
   const away = ['--plc', '192.0.2.1:4000']
 
@@ -314,6 +366,7 @@ describe('what the family does not have is refused, with what to do', () => {
     ['memory', 'read', '0', '1', '--family', 'jw'],
     ['clock', 'read', '--family', 'melsec'],
     ['find-header', '--family', 'melsec'],
+    ['buffer', 'info', '1', '--family', 'melsec'],
     ['parameters', 'read', '--unit', '1', '--family', 'melsec'],
   ])('%s %s', async (...args) => {
     const { code, err } = await runHere([...args, ...away])

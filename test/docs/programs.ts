@@ -53,7 +53,11 @@ export class Bench {
     const fx3 = createPlcSimulator({ profile: 'fx3' })
     await fx3.listen()
     this.#simulators.set(fx3, READERS_FX3_PORT)
-    const jw = createJwSimulator({ writeMode: 1 })
+    const jw = createJwSimulator({
+      writeMode: 1,
+      specifiedBuffers: { 1: { file: 1, address: 0o20000, length: 256 } },
+      ringBuffers: { 0: { file: 1, address: 0o40000, length: 256 } },
+    })
     await jw.listen()
     this.#simulators.set(jw, READERS_JW_PORT)
     this.#pair = await ttyPair()

@@ -81,9 +81,9 @@ export function addJwConnectionOptions(command: Command, { header = true } = {})
   addPeerOptions(command.optionsGroup('Which PLC:')).addOption(familyOption('jw'))
   if (header) addJwOptions(command)
   else addFurtherOptions(command.optionsGroup('Sharp JW:'))
-  return addSessionOptions(command, () => {
-    if (header) command.addOption(choice('--probe <name>', 'request that proves the connection', jwProbeKinds))
-  })
+  const addProbe = () =>
+    header && command.addOption(choice('--probe <name>', 'request that proves the connection', jwProbeKinds))
+  return addSessionOptions(command, addProbe, { trace: header })
 }
 
 /** @example headerOf('relay:1,2,3,4') // { pda: 1, psa: 2, slot: 3, station: 4 } */
