@@ -81,6 +81,8 @@ class SerialTransport implements Transport {
   #handlers: TransportHandlers | undefined
   #port: SerialPort | undefined
   #sent = false
+  /** With RTS while sending: what is being sent, and what follows. */
+  readonly #outgoing: Uint8Array[] = []
 
   constructor(settings: SerialSettings) {
     this.#settings = settings
@@ -135,12 +137,31 @@ class SerialTransport implements Transport {
       port.write(bytes)
       return
     }
-    port.set({ rts: true })
-    port.write(bytes)
-    // Drained is when the last bit is on the line, as well as the system knows it.
-    port.drain(() => {
-      if (this.#state === 'open') port.set({ rts: false })
+    this.#outgoing.push(bytes)
+    if (this.#outgoing.length === 1) this.#sendNext(port)
+  }
+
+  /**
+   * One after another, and each step when the one before is done: setting a line takes an adapter longer than passing a
+   * character on, so the first ones would be sent before the converter drives the line.
+   */
+  #sendNext(port: SerialPort): void {
+    const [bytes] = this.#outgoing
+    if (bytes === undefined) return
+    const then = (next: () => void) => (failed: Error | null | undefined) => {
+      if (failed) this.#finish(this.#lost(failed))
+      else if (this.#state === 'open') next()
+    }
+    const released = then(() => {
+      this.#outgoing.shift()
+      this.#sendNext(port)
     })
+    const raised = then(() => {
+      port.write(bytes)
+      // Drained is when the last bit is on the line, as well as the system knows it.
+      port.drain(then(() => port.set({ rts: false }, released)))
+    })
+    port.set({ rts: true }, raised)
   }
 
   renew(): void {

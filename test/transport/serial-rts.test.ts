@@ -3,6 +3,8 @@ import { beforeEach, expect, jest, test } from '@jest/globals'
 import { serialTransport } from '../../src/transport/serial'
 
 const done: unknown[] = []
+/** Setting takes the adapter a moment. */
+let isSlow = false
 
 class FakePort {
   isOpen = false
@@ -15,8 +17,15 @@ class FakePort {
   }
 
   set(options: object, then?: (error: null) => void) {
-    done.push(options)
-    then?.(null)
+    if (!isSlow) {
+      done.push(options)
+      then?.(null)
+      return
+    }
+    setImmediate(() => {
+      done.push(options)
+      then?.(null)
+    })
   }
 
   write() {
@@ -38,6 +47,7 @@ jest.mock('serialport', () => ({ SerialPort: FakePort }))
 
 beforeEach(() => {
   done.length = 0
+  isSlow = false
 })
 
 test.each([
@@ -50,4 +60,17 @@ test.each([
   transport.send(Buffer.of(1))
   transport.close()
   expect(done).toEqual(expected)
+})
+
+test('sending: nothing goes out before the converter drives the line, and it does until all of it is out', async () => {
+  const transport = serialTransport({ path: 'COM3', rts: 'sending' })()
+  await new Promise<void>((opened) => transport.open({ opened, received() {}, closed() {} }))
+  done.length = 0
+  isSlow = true
+  transport.send(Buffer.of(4))
+  transport.send(Buffer.of(5))
+  while (done.length < 8) await new Promise((resolve) => setImmediate(resolve))
+  const once = [{ rts: true }, 'write', 'drain', { rts: false }]
+  expect(done).toEqual([...once, ...once])
+  transport.close()
 })
