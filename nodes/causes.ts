@@ -34,6 +34,8 @@ const CAUSES = {
   serialWires: [],
   serialConverter: [],
   serialOff: [],
+  serialSlow: [],
+  serialLonger: [],
   serialServer: [],
   serialOthers: [],
   serialChanged: [],

@@ -114,4 +114,11 @@ describe('a PLC on a serial line', () => {
   test('that has answered before is off, slow, or disturbed', () => {
     expect(silent({ answeredBefore: true })).toHaveLength(5)
   })
+
+  test('that answers too late needs a longer answer time: the timeout alone changes nothing', () => {
+    for (const answeredBefore of [false, true]) {
+      const causes = explainSilence(onLine, { ...fresh, answeredBefore })
+      expect(causes.filter((cause) => cause.includes('answer time of the line (answerTime)'))).toHaveLength(1)
+    }
+  })
 })

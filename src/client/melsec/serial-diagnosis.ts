@@ -24,6 +24,10 @@ const WIRES =
   'The wires: SDA and SDB of one side belong to RDA and RDB of the other (RS-485), TXD to RXD (RS-232C); A and B may be exchanged, or ground or terminating resistor missing.'
 const CONVERTER =
   'The converter does not let go of the line after it has sent, or gives our own characters back: choose RTS "while sending", or a converter that switches by itself.'
+/** A PLC counts as silent after the answer time of the line already: a longer timeout alone changes nothing. */
+const SERIAL_SLOW = 'The PLC is busy or the line slow: raise the answer time of the line (answerTime), or the timeout.'
+const SERIAL_LONGER =
+  'The PLC began to answer later than the answer time of the line (answerTime) or the timeout allows: raise it.'
 const OFF = 'The PLC is off, restarting, or its cable is interrupted.'
 const SERVER = 'The device server is not in raw TCP mode, or its serial settings are not those of the PLC.'
 
@@ -37,10 +41,10 @@ export function serialCauses(
   const [station, speed, characters] = [stationOf(link), speedOf(link), charactersOf(link)]
   const framing = [formatOf(link), sumOf(link), ...otherFrame]
   // Others speak as this line does: what differs is a matter of this PLC.
-  if (othersAnswer === true) return [station, OFF, PROTOCOL, speed, characters, ...framing, WIRES, SLOW]
+  if (othersAnswer === true) return [station, OFF, PROTOCOL, speed, characters, ...framing, WIRES, SERIAL_SLOW]
   // Something came that is no answer: the wires are right.
-  if (heard === true) return [...server, speed, characters, CONVERTER, ...framing, PROTOCOL, station, SLOW]
-  return [...server, PROTOCOL, speed, characters, station, ...framing, WIRES, CONVERTER, OFF, SLOW]
+  if (heard === true) return [...server, speed, characters, CONVERTER, ...framing, PROTOCOL, station, SERIAL_SLOW]
+  return [...server, PROTOCOL, speed, characters, station, ...framing, WIRES, CONVERTER, OFF, SERIAL_SLOW]
 }
 
 function stationOf({ station }: SerialLink): string {
@@ -69,7 +73,7 @@ function sumOf({ sumCheck }: SerialLink): string {
 /** What may have changed since it answered. */
 export const serialChanges: readonly string[] = [
   OFF,
-  LONGER,
+  SERIAL_LONGER,
   'Another program or device sends on this line at the same time.',
   "The settings of the PLC's port were changed since it last answered.",
   UNKNOWN_REQUEST,
