@@ -2,6 +2,7 @@
 import { describe, expect, test } from '@jest/globals'
 import { createMelsecClient } from '../../src/client/melsec/melsec-client'
 import type { MelsecClientOptions } from '../../src/client/melsec/options'
+import { createMelsecLine } from '../../src/client/melsec/serial-line'
 import { settle } from '../../src/client/melsec/settings'
 import { RequestError } from '../../src/errors'
 import { ownStation } from '../../src/melsec/frame/route'
@@ -130,6 +131,12 @@ describe('refused', () => {
     ['CPU No. 2 of an iQ-F', { profile: 'iq-f', route: { moduleIo: 0x3e1 } }, 'route', 'the connected station only'],
     ['a route with a field less', { profile: 'q-built-in', route: { multidrop: 3, moduleIo: 1 } }, 'route', 'only'],
     ['another code', { code: 'hex' }, 'code', 'must be binary or ascii'],
+    [
+      'a serial frame with the profile of the Ethernet port',
+      { profile: 'iq-f', frame: '3C' },
+      'frame',
+      'On a serial line its profile is another one: fx5-serial,',
+    ],
     ['a station extension frame the family lacks', { profile: 'q', frame: 'ext' }, 'frame', 'has no ext frame: use 3E'],
     [
       'a station extension frame in ASCII code',
@@ -220,5 +227,11 @@ describe('refused', () => {
     expect(settle({ ...peer, transport: 'udp', profile: 'iq-r', inFlight: 33 }).inFlight).toBe(33)
     const profileOverrides = { inFlight: { udpBuffer: 4 } }
     expect(settle({ ...peer, transport: 'udp', profile: 'iq-r', profileOverrides, inFlight: 5 }).inFlight).toBe(5)
+  })
+
+  test('what belongs to the line is refused of a client on it, also its port', () => {
+    const line = createMelsecLine({ host: '127.0.0.1', port: 4001 })
+    const given = { line, profile: 'fx5-serial', port: 4002 } as unknown as MelsecClientOptions
+    expect(() => settle(given)).toThrow('port belongs to the line: give it to createMelsecLine().')
   })
 })

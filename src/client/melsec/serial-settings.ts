@@ -24,6 +24,7 @@ export function serialLineFor(options: MelsecClientOptions, profile: Profile): S
       'serialFrame',
       'serial',
       'host',
+      'port',
       'openTransport',
     ] as const) {
       if (options[name] === undefined) continue

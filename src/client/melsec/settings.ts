@@ -12,9 +12,10 @@ import {
   type FrameName,
   inFlightBound,
   type Profile,
+  profileIds,
   type TransportName,
 } from '../../melsec/profiles/profile'
-import { resolveProfile } from '../../melsec/profiles/profiles'
+import { profiles, resolveProfile } from '../../melsec/profiles/profiles'
 import { type Clock, realClock } from '../../transport/clock'
 import { checkFormat, type ValueFormat } from '../../value/value'
 import {
@@ -157,9 +158,15 @@ function frameOf(profile: Profile, frame: FrameName | undefined): FrameName {
   if (profile.frames.includes(chosen)) return chosen
   throw new RequestError(
     'BAD_OPTION',
-    `${profile.title} has no ${shown(chosen)} frame: use ${profile.frames.join(' or ')}.`,
+    `${profile.title} has no ${shown(chosen)} frame: use ${profile.frames.join(' or ')}.${otherProfile(chosen)}`,
     'frame',
   )
+}
+
+/** The same CPU by its other port. */
+function otherProfile(frame: FrameName): string {
+  const others = profileIds.filter((id) => profiles[id].frames.includes(frame))
+  return isSerialFrame(frame) ? ` On a serial line its profile is another one: ${others.join(', ')}.` : ''
 }
 
 function codeOf(frame: FrameName, given: DataCode): DataCode {
