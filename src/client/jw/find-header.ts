@@ -1,6 +1,6 @@
 // Which header a unit wants, found by asking: a read that changes nothing.
 import { checkNames } from '../../basics/option-checks'
-import { ConnectionError, PlcError, TimeoutError } from '../../errors'
+import { ConnectionError, PlcError, ProtocolError, TimeoutError } from '../../errors'
 import type { JwHeader } from '../../jw/header'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { createJwClient } from './jw-client'
@@ -67,10 +67,10 @@ async function failureWith(options: JwClientOptions, call: CallOptions): Promise
   }
 }
 
-/** Silence, closing, or bytes that are no message: what another header may change. */
+/** Silence, closing, or what is no answer to the message, because the unit saw another one: what another header may change. */
 function isUnanswered(error: PlcError): boolean {
   if (error instanceof ConnectionError) return error.code !== 'CONNECT_FAILED' && error.code !== 'PORT_UNAVAILABLE'
-  return error instanceof TimeoutError || error.code === 'BAD_FRAME'
+  return error instanceof TimeoutError || error instanceof ProtocolError
 }
 
 function headerText(header: JwHeader): string {

@@ -6,7 +6,9 @@ import { createJwClient } from '../../../src/client/jw/jw-client'
 import type { JwClientOptions } from '../../../src/client/jw/options'
 import { PlcError } from '../../../src/errors'
 import { jwCommands } from '../../../src/jw/commands/commands'
+import { listenTcp } from '../../../src/transport/listen-tcp'
 import { listenUdp } from '../../../src/transport/listen-udp'
+import type { ServerConnection } from '../../../src/transport/transport'
 import { failureOf, until } from '../line'
 import { inMemory, onSockets, SmallJw } from './small-jw'
 
@@ -203,6 +205,21 @@ describe('findJwHeader', () => {
       expect(found.tried).toHaveLength(attempts)
       expect(plc.asked).toEqual([])
     })
+  })
+
+  test('of a unit that answers another header by a result code of no command', async () => {
+    // What it takes for the command is the third byte of the header.
+    const answer = (peer: ServerConnection) => (bytes: Buffer) =>
+      peer.send(Buffer.from(bytes[0] === 0 ? [0x45, 0, 0, 1] : [0x45, 0, 0xe9, 0, 2]))
+    const listener = await listenTcp({ port: 0 }, (peer) => {
+      peer.onReceived = answer(peer)
+      peer.onClosed = () => {}
+    })
+    const unit = { host: '127.0.0.1', port: listener.port, timeout: 200, connectTimeout: 1000 }
+    const { header, tried } = await findJwHeader(unit)
+    expect(header).toBe('none')
+    expect(tried[0]).toMatchObject({ header: 'zero40', error: { code: 'ECHO_MISMATCH' } })
+    await listener.close()
   })
 
   test('says so when a unit answers to none', async () => {
