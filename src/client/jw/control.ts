@@ -61,8 +61,12 @@ export interface JwCallParts {
 }
 
 /** All requests of one call share its deadline. */
-export function sharing({ send, clock, timeout }: JwCallParts, options: CallOptions): SendJwCommand {
-  const deadline = new Deadline(clock, options, timeout)
+export function sharing(parts: JwCallParts, options: CallOptions): SendJwCommand {
+  return within(new Deadline(parts.clock, options, parts.timeout), parts)
+}
+
+/** All requests end before the deadline. */
+export function within(deadline: Deadline, { send }: Pick<JwCallParts, 'send'>): SendJwCommand {
   return async (command, message) => send(command, message, deadline.options(command.title))
 }
 
@@ -83,7 +87,7 @@ export function jwControl(parts: JwCallParts): JwControl {
       return
     }
     const deadline = new Deadline(parts.clock, call, parts.timeout)
-    const how: SendJwCommand = async (command, message) => send(command, message, deadline.options(command.title))
+    const how = within(deadline, parts)
     await how(jwCommands.setRunState, { state })
     await reached(parts.clock, deadline, () => runState(how), state === 0)
   }

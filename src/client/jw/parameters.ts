@@ -14,7 +14,9 @@ import {
   startSwitch,
 } from '../../jw/parameters/parameter-area'
 import { type CallOptions, callOptionsOf } from '../connection/call'
-import { type JwCallParts, sharing } from './control'
+import { Deadline } from '../connection/deadline'
+import { WriteTurns } from '../plan/write-turns'
+import { type JwCallParts, sharing, within } from './control'
 import type { JwLimits } from './limits'
 import type { SendJwCommand } from './send-command'
 
@@ -63,8 +65,10 @@ export interface JwParameters {
 }
 
 export function jwParameters(parts: JwCallParts, limits: JwLimits): JwParameters {
+  // One procedure at a time: the start of one must not find what another has half written.
+  const turns = new WriteTurns()
   return {
-    optionUnit: (place) => optionUnit(parts, limits, checkedPlace(place)),
+    optionUnit: (place) => optionUnit(parts, limits, checkedPlace(place), turns),
     specialIo: (place) => {
       const unit = checkedPlace(place)
       return {
@@ -86,7 +90,7 @@ function checkedPlace(place: JwUnitPlace): JwUnitPlace {
   return { rack: wholeNumber('rack', rack, 0, LAST), unit: wholeNumber('unit', unit, 0, LAST) }
 }
 
-function optionUnit(parts: JwCallParts, limits: JwLimits, unit: JwUnitPlace): JwOptionParameters {
+function optionUnit(parts: JwCallParts, limits: JwLimits, unit: JwUnitPlace, turns: WriteTurns): JwOptionParameters {
   return {
     read: async (address, length, options = {}) => {
       checkBlocks([{ address, bytes: new Uint8Array(wholeNumber('length', length, 1, parameterArea.last + 1)) }])
@@ -102,7 +106,9 @@ function optionUnit(parts: JwCallParts, limits: JwLimits, unit: JwUnitPlace): Jw
       checkBlocks(blocks)
       const steps = startProcedure(blocks.flatMap((block) => cut(block, limits.writeParameters)))
       parts.permit('configure', jwCommands.writeOptionParameters.title)
-      return procedure(steps, unit, sharing(parts, callOptionsOf(options)))
+      const deadline = new Deadline(parts.clock, callOptionsOf(options), parts.timeout)
+      const { title } = jwCommands.writeOptionParameters
+      return turns.exclusive(deadline, title, () => procedure(steps, unit, within(deadline, parts)))
     },
   }
 }
