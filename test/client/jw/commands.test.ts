@@ -91,6 +91,53 @@ describe('the clock', () => {
     expect(await failureOf(client.clock.set(new Date(Number.NaN)))).toMatchObject({ code: 'BAD_VALUE' })
   })
 
+  test.each([
+    ['hour 25', { hour: 25 }],
+    ['no second', { second: undefined }],
+    ['29 February of a year that has none', { year: 26, month: 2, day: 29 }],
+    ['31 April', { month: 4, day: 31 }],
+    ['a setting there is none of', { minutes: 5 }],
+  ])('is not set in part to what is no time: %s', async (_what, wrong) => {
+    start()
+    await client.connect()
+    const time = { year: 4, month: 8, day: 18, dayOfWeek: 3, hour: 13, minute: 30, second: 0, ...wrong }
+    expect(await failureOf(client.clock.set(time as never))).toMatchObject({ outcome: 'notSent' })
+    expect(plc.asked).toEqual([])
+  })
+
+  test('has the right date when midnight passes in the PLC while it is set', async () => {
+    start()
+    const date = { year: 26, month: 11, day: 29, dayOfWeek: 0 }
+    plc.script = (request) => {
+      request.reply()
+      if (plc.asked.length === 1) plc.date = { ...plc.date, day: 30, dayOfWeek: 1 }
+    }
+    await client.clock.set({ ...date, hour: 23, minute: 59, second: 59 })
+    expect(plc.date).toEqual(date)
+  })
+
+  test('that was set just before midnight may show the next day', async () => {
+    start()
+    plc.script = (request) => {
+      request.reply()
+      if (request.name !== 'setTime') return
+      plc.date = { year: 26, month: 11, day: 30, dayOfWeek: 1 }
+      plc.time = { hour: 0, minute: 0, second: 0 }
+    }
+    const date = { year: 26, month: 11, day: 29, dayOfWeek: 0 }
+    await client.clock.set({ ...date, hour: 23, minute: 59, second: 59 })
+    expect(plc.asked.filter((name) => name === 'setDate')).toHaveLength(1)
+  })
+
+  test('that shows another day than it was set to is not set', async () => {
+    start()
+    plc.script = (request) => {
+      request.reply()
+      if (request.name === 'setDate') plc.date = { ...plc.date, day: 1 }
+    }
+    expect(await failureOf(client.clock.set(new Date(2026, 10, 29, 14, 5, 6)))).toMatchObject({ code: 'NOT_VERIFIED' })
+  })
+
   test('that took the date and not the time says so', async () => {
     start()
     plc.refusals.set('setTime', 0x10)
@@ -141,6 +188,19 @@ describe('parameters of option units', () => {
       { address: 0x7fe, length: 2 },
     ])
     expect(await unit.read(0, 2048)).toEqual(Buffer.from(plc.parameters))
+  })
+
+  test('of two calls go in one after the other, so that a unit starts on the parameters of one', async () => {
+    start()
+    await client.connect()
+    const unit = client.parameters.optionUnit(place)
+    const again = client.parameters.optionUnit(place)
+    const writing = [1, 2].map((byte) => [unit, again][byte - 1]?.write([{ address: 0, bytes: Uint8Array.of(byte) }]))
+    await Promise.all(writing)
+    const one = ['writeOptionParameters', 'writeOptionParameters', 'writeOptionParameters', 'readOptionParameters']
+    expect(plc.asked).toEqual([...one, ...one])
+    expect(plc.messages[1]).toMatchObject({ address: 0, data: Uint8Array.of(1) })
+    expect(plc.messages[5]).toMatchObject({ address: 0, data: Uint8Array.of(2) })
   })
 
   test('over UDP they are cut so that messages stay below 1024 bytes', async () => {
