@@ -66,7 +66,7 @@ test('an error says what the code means and what to do', () => {
 })
 
 test('where the manual leaves open how far a write came, so does the error; a read changes nothing', () => {
-  for (const code of [0x02, 0x04, 0x07, 0x08, 0x0f, 0x11, 0x1b, 0x21, 0x53]) {
+  for (const code of [0x02, 0x04, 0x07, 0x08, 0x0f, 0x11, 0x1b, 0x21, 0x44, 0x4c, 0x53]) {
     expect(refused(write, code).outcome).toBe('unknown')
     expect(refused(read, code).outcome).toBe('refused')
   }

@@ -31,7 +31,7 @@ export const resultCodes: EndCodeTable = {
     ],
   },
   // The manual does not say whether what stands before a refused address was written, nor how far it came with the others.
-  perhapsCarriedOut: [0x02, 0x04, 0x07, 0x08, 0x0f, 0x11, 0x1b, 0x21, 0x53],
+  perhapsCarriedOut: [0x02, 0x04, 0x07, 0x08, 0x0f, 0x11, 0x1b, 0x21, 0x44, 0x4c, 0x53],
 }
 
 export const resultFacts = endCodeFacts(resultCodes)
