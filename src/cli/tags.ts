@@ -1,8 +1,9 @@
 import { readFile, rename, rm, writeFile } from 'node:fs/promises'
 import { extname } from 'node:path'
 import { type Command, Option } from 'commander'
-import { parseType } from '../entry/address'
+import { parseByteType } from '../entry/address'
 import {
+  createJwClient,
   createMelsecClient,
   diffTags,
   exportTags,
@@ -14,7 +15,9 @@ import {
   type Tag,
   type TagCheckOptions,
   type TagDifference,
+  type TagFacts,
   type TagImport,
+  type TagItem,
   type TagMergeOptions,
   tagFileEncodings,
   tagFileKinds,
@@ -22,6 +25,7 @@ import {
 import { type MakeCommand, newCommand, perform } from './command'
 import { profileOption, wRadixOption, xyRadixOption } from './connection-options'
 import { exitCodes } from './exit-code'
+import { byFamily, type FamilyOptions, familyOption, onlyFor } from './family'
 import { choice, choiceArgument, jsonOption } from './option'
 import { json, table } from './output'
 import { refusalOf, type Terminal } from './terminal'
@@ -37,7 +41,7 @@ const examples = [
 const ACTIONS = ['import', 'check', 'diff', 'export'] as const
 const DELIMITERS = { comma: ',', semicolon: ';', tab: '\t' } as const
 
-interface TagsOptions {
+interface TagsOptions extends FamilyOptions {
   readonly profile: ProfileId
   readonly xyRadix?: 8 | 16
   readonly wRadix?: 10 | 16
@@ -65,15 +69,19 @@ export const tagsCommand: MakeCommand = (run) => {
   addTagOptions(command)
   return command.action(
     (action: (typeof ACTIONS)[number], file: string, other: string | undefined, options: TagsOptions) =>
-      perform(run, options, () => act(run.terminal, action, file, other, options)),
+      perform(run, options, () => {
+        const work = () => act(run.terminal, action, file, other, options)
+        return byFamily(command, options, { melsec: work, jw: work })
+      }),
   )
 }
 
 function addTagOptions(command: Command): void {
+  command.addOption(familyOption())
+  onlyFor('melsec', 'A Sharp JW has one notation of operands: leave it out.', command, () =>
+    command.addOption(profileOption().default('generic')).addOption(xyRadixOption()).addOption(wRadixOption()),
+  )
   command
-    .addOption(profileOption().default('generic'))
-    .addOption(xyRadixOption())
-    .addOption(wRadixOption())
     .addOption(
       choice(
         '--kind <kind>',
@@ -175,8 +183,11 @@ async function imported(terminal: Terminal, file: string, target: string, option
 }
 
 async function exported(terminal: Terminal, table: string, file: string, options: TagsOptions): Promise<number> {
-  const tags = await tableIn(table, { ...withoutFile(options) })
   const { kind = tableKindOf(file), fileEncoding, delimiter, template } = options
+  if (options.family === 'jw' && kind !== 'csv' && kind !== 'json') {
+    throw new RequestError('UNSUPPORTED', 'GX Works knows no Sharp JW: export csv or json.', 'kind')
+  }
+  const tags = await tableIn(table, withoutFile(options))
   const { bytes, messages } = exportTags(tags, {
     kind,
     ...(fileEncoding === undefined ? {} : { encoding: fileEncoding }),
@@ -263,22 +274,38 @@ function checksOf(options: TagsOptions): TagCheckOptions {
   return options.template === true ? { template: true } : { readItem: readerOf(options) }
 }
 
-/** What a PLC of the profile knows of addresses; it is never connected. */
-function readerOf({ profile, xyRadix, wRadix }: TagsOptions): ReadTagItem {
-  const client = createMelsecClient({
-    host: 'none',
-    port: 1,
-    profile,
-    ...(xyRadix === undefined ? {} : { xyRadix }),
-    ...(wRadix === undefined ? {} : { wRadix }),
-  })
-  return (item) => {
-    const found = client.explain(item)
-    const type = found.type === undefined ? {} : { type: parseType(found.type) }
-    const count = found.count === undefined ? {} : { count: found.count }
-    if ('label' in found) return { ...type, ...count }
-    return { device: found.text.replace(/(?::.*|\[\d+\])$/, ''), ...type, ...count }
+/** What a PLC of the family knows of addresses; it is never connected. */
+function readerOf({ family, profile, xyRadix, wRadix }: TagsOptions): ReadTagItem {
+  const nowhere = { host: 'none', port: 1 }
+  const client: { explain(item: TagItem): Explained } =
+    family === 'jw'
+      ? createJwClient(nowhere)
+      : createMelsecClient({
+          ...nowhere,
+          profile,
+          ...(xyRadix === undefined ? {} : { xyRadix }),
+          ...(wRadix === undefined ? {} : { wRadix }),
+        })
+  return (item) => factsOf(client.explain(item))
+}
+
+/** What both clients say of an item. */
+interface Explained {
+  readonly text: string
+  readonly label?: string
+  readonly type?: string
+  readonly count?: number
+}
+
+function factsOf({ text, label, type, count }: Explained): TagFacts {
+  const facts = {
+    ...(type === undefined ? {} : { type: parseByteType(type) }),
+    ...(count === undefined ? {} : { count }),
   }
+  if (label !== undefined) return facts
+  const one = count === undefined ? text : text.replace(/\[\d+\]$/, '')
+  const behind = `:${type}`
+  return { ...facts, device: one.endsWith(behind) ? one.slice(0, -behind.length) : one }
 }
 
 function tableKindOf(file: string): 'json' | 'csv' {

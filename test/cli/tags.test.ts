@@ -137,6 +137,20 @@ describe('check', () => {
     expect((await runHere(['tags', 'check', label, '--profile', 'q'])).code).toBe(6)
   })
 
+  test('knows the operands of a Sharp JW', async () => {
+    const table = put('jw.csv', 'Name,Address,Type,Count\na,09012,INT,\nb,004033,,\nc,F1:00001234,BYTE,4\nd,D100,,\n')
+    const { code, err, out } = await runHere(['tags', 'check', table, '--family', 'jw'])
+    expect([code, err]).toEqual([6, expect.stringMatching(/^.*jw\.csv:5: d: .*D100.*\n$/)])
+    expect(out).toMatch(/: csv, utf-8: 3 tags\./)
+    const other = put('other.json', JSON.stringify([{ name: 'c', address: 'F1:00001234:BYTE[4]' }]))
+    expect((await runHere(['tags', 'diff', table, other, '--family', 'jw'])).out).toMatch(/ 1 the same$/m)
+    expect((await runHere(['tags', 'check', table, '--family', 'jw', '--profile', 'iq-r'])).err).toMatch(
+      /--profile is of MELSEC only\. A Sharp JW has one notation/,
+    )
+    const refused = await runHere(['tags', 'export', other, at('x.csv'), '--family', 'jw', '--kind', 'gxWorks3Labels'])
+    expect([refused.code, refused.err]).toEqual([2, 'GX Works knows no Sharp JW: export csv or json.\n'])
+  })
+
   test('takes a template', async () => {
     const table = put('plant.csv', 'Name,Address\nm{station}.level,D{station}00\n')
     expect((await tags('check', table)).code).toBe(6)
