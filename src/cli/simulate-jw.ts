@@ -8,10 +8,11 @@ import {
   type JwSimulatorOptions,
   startDemoBottling,
 } from '../entry/simulator'
-import { RequestError } from '../index'
 import { exitCodes } from './exit-code'
+import type { FamilyOptions } from './family'
 import { jwFaultOf } from './fault-option'
 import { interruption } from './interruption'
+import { modelOption } from './jw/connection'
 import { choice, given, whole } from './option'
 import { json, table } from './output'
 import { addressRow, isLoopback, outcomeIn, plantTable } from './simulated'
@@ -25,8 +26,7 @@ interface OwnOptions {
 }
 
 /** The options of a Sharp JW as commander gives them, those among them that other PLCs at Ethernet have, too. */
-export interface JwOptions extends OwnOptions {
-  readonly family: 'melsec' | 'jw'
+export interface JwOptions extends OwnOptions, FamilyOptions {
   readonly host: string
   readonly port: number
   readonly udpPort?: number
@@ -40,33 +40,15 @@ export interface JwOptions extends OwnOptions {
   readonly json?: boolean
 }
 
-const OWN = { model: true, header: true, writeMode: true } as const satisfies Readonly<Record<keyof OwnOptions, true>>
-
-const SHARED = {
-  family: true,
-  host: true,
-  port: true,
-  udpPort: true,
-  tcp: true,
-  udp: true,
-  plant: true,
-  fault: true,
-  scanTime: true,
-  maxConnections: true,
-  log: true,
-  json: true,
-} as const satisfies Readonly<Record<Exclude<keyof JwOptions, keyof OwnOptions>, true>>
-
 export const jwExamples = [
   'simulate --family jw --plant --write-mode 1',
   'simulate --family jw --port 5010 --header zero40 --fault endCode:endCode=10,commands=writeDataMemory,times=1',
 ]
 
-/** Adds the options of a Sharp JW. */
-export function addJwOptions(command: Command): Command {
+/** Adds the options that a simulated Sharp JW alone has. */
+export function addSimulatedJwOptions(command: Command): Command {
   return command
-    .addOption(choice('--family <family>', 'melsec, or jw for a Sharp JW', ['melsec', 'jw']).default('melsec'))
-    .addOption(choice('--model <model>', 'Sharp JW: default jw300', ['jw300', 'jw30h']))
+    .addOption(modelOption())
     .addOption(choice('--header <header>', 'Sharp JW: in front of messages; default any', ['any', 'none', 'zero40']))
     .addOption(
       new Option(
@@ -74,23 +56,6 @@ export function addJwOptions(command: Command): Command {
         'Sharp JW: what may be written: 0 nothing (default), 1 data memory, 2 all',
       ).argParser(whole(0, 2)),
     )
-}
-
-/**
- * Whether a Sharp JW is meant.
- * @throws RequestError BAD_OPTION for options that do not go together
- */
-export function isJw(command: Command, { family }: Pick<JwOptions, 'family'>): boolean {
-  const isJwFamily = family === 'jw'
-  const wrong = command.options.find((option) => {
-    const name = option.attributeName()
-    if (command.getOptionValueSource(name) !== 'cli') return false
-    return isJwFamily ? !(name in OWN || name in SHARED) : name in OWN
-  })
-  if (wrong === undefined) return isJwFamily
-  const flag = wrong.long ?? wrong.attributeName()
-  const message = isJwFamily ? `A Sharp JW has no ${flag}.` : `${flag} is for a Sharp JW: give --family jw.`
-  throw new RequestError('BAD_OPTION', message, wrong.attributeName())
 }
 
 export async function simulateJw(terminal: Terminal, options: JwOptions): Promise<number> {

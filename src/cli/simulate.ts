@@ -1,4 +1,4 @@
-import { Option } from 'commander'
+import { type Command, Option } from 'commander'
 import {
   createPlcSimulator,
   demoPlantTags,
@@ -13,6 +13,7 @@ import { type MakeCommand, newCommand, perform } from './command'
 import { addCodeOptions, frameOption, profileOption, simulatedPassword } from './connection-options'
 import { drivesOf } from './drive-option'
 import { exitCodes } from './exit-code'
+import { byFamily, familyOption, onlyFor } from './family'
 import { faultHelp, faultOf } from './fault-option'
 import { interruption } from './interruption'
 import { labelsOf } from './label-option'
@@ -20,7 +21,7 @@ import { moduleOf } from './module-option'
 import { onDemandWords, sendAgainAndAgain, takeLines } from './on-demand'
 import { jsonOption, whole } from './option'
 import { json, table } from './output'
-import { addJwOptions, isJw, type JwOptions, jwExamples, simulateJw } from './simulate-jw'
+import { addSimulatedJwOptions, type JwOptions, jwExamples, simulateJw } from './simulate-jw'
 import { addLineOptions, isLine, type LineOptions, lineExamples, simulateLine } from './simulate-line'
 import { addressRow, addressText, isLoopback, outcomeText, plantTable } from './simulated'
 import type { Terminal } from './terminal'
@@ -61,7 +62,7 @@ export const simulateCommand: MakeCommand = (run) => {
       'Start a simulated PLC that answers SLMP as a CPU of the family does, or as a Sharp JW does. It listens on this computer only, unless ' +
         '--host says otherwise, and lives until Ctrl-C.',
     )
-    .addOption(profileOption().default('iq-r'))
+    .addOption(familyOption())
     .option('--host <address>', 'address to listen on', '127.0.0.1')
     .addOption(
       new Option('--port <number>', 'TCP port, and UDP port; 0 = any free one')
@@ -71,15 +72,40 @@ export const simulateCommand: MakeCommand = (run) => {
     .addOption(new Option('--udp-port <number>', 'another UDP port').argParser(whole(0, 65535)))
     .option('--no-tcp', 'no TCP')
     .option('--no-udp', 'no UDP')
-    .addOption(frameOption('take this frame only; default: all of the profile', frameNames))
-  addCodeOptions(command)
-  command
     .option('--plant', 'run the demo plant in it: a mixing tank; in a Sharp JW a bottling line')
     .addOption(
       new Option('--fault <fault>', 'switch a fault on; may be repeated').default([], 'none').argParser(collect),
     )
     .addOption(new Option('--scan-time <ms>', 'time from a request to its answer in RUN').argParser(whole(0, 60_000)))
     .addOption(new Option('--max-connections <number>', 'connection entries').argParser(whole(1, 1000)))
+    .option('--log', 'print every request')
+    .addOption(jsonOption())
+  onlyFor('melsec', 'A simulated Sharp JW does not have it: leave it out.', command, (to) => {
+    addMelsecOptions(to.optionsGroup('MELSEC:'))
+    addLineOptions(to.optionsGroup('A serial line of them:'))
+  })
+  onlyFor('jw', 'With a Sharp JW say --family jw.', command, (to) =>
+    addSimulatedJwOptions(to.optionsGroup('Sharp JW (--family jw):')),
+  )
+  command.addHelpText('after', faultHelp)
+  return command.action((options: SimulateOptions) =>
+    perform(run, options, () =>
+      byFamily(command, options, {
+        melsec: async () =>
+          isLine(command, options) ? simulateLine(run.terminal, command, options) : simulate(run.terminal, options),
+        jw: () => simulateJw(run.terminal, options),
+      }),
+    ),
+  )
+}
+
+/** Options of a simulated MELSEC. */
+function addMelsecOptions(command: Command): void {
+  command
+    .addOption(profileOption().default('iq-r'))
+    .addOption(frameOption('take this frame only; default: all of the profile', frameNames))
+  addCodeOptions(command)
+  command
     .option('--reset-allowed', 'CPU parameter "Remote Reset"')
     .addOption(
       new Option('--module <model@start I/O>', 'module with buffer memory, e.g. Q62DA@0030; may be repeated')
@@ -116,15 +142,6 @@ export const simulateCommand: MakeCommand = (run) => {
       new Option('--on-demand-every <ms>', 'pause before each of them').default(1000).argParser(whole(10, 3_600_000)),
     )
     .option('--interactive', 'take lines from the standard input: "ondemand 1 2 3" sends On-demand once')
-    .option('--log', 'print every request')
-    .addOption(jsonOption())
-  addJwOptions(addLineOptions(command)).addHelpText('after', faultHelp)
-  return command.action((options: SimulateOptions) =>
-    perform(run, options, async () => {
-      if (isJw(command, options)) return simulateJw(run.terminal, options)
-      return isLine(command, options) ? simulateLine(run.terminal, command, options) : simulate(run.terminal, options)
-    }),
-  )
 }
 
 function collect(text: string, before: readonly string[]): readonly string[] {
