@@ -75,6 +75,16 @@ describe('options', () => {
     }
   })
 
+  test('of a serial line have the usual times on the page and in the dialog of its node', () => {
+    const { recovery } = settleSerialLine({})
+    const rows = new Map(tableAfter('docs/nodes/line.md', 'properties').map(([name, , usual]) => [codeOf(name), usual]))
+    const dialog = readText('nodes/melsec-jw-line.html')
+    for (const name of ['answerTime', 'gap'] as const) {
+      expect(`${name} ${rows.get(name)}`).toBe(`${name} ${recovery[name]}`)
+      expect(dialog).toContain(`id="node-config-input-${name}" placeholder="${recovery[name]}"`)
+    }
+  })
+
   test('of the client have the defaults in docs/client.md', () => {
     const { first, longest, profile, ...settings } = settle({ host: 'plc', port: 5010 })
     const shown = tableAfter('docs/client.md', 'options: client').flatMap(([name, usual, meaning]) => {
