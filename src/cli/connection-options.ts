@@ -54,6 +54,7 @@ export interface ConnectionOptions extends SerialLineOptions, PeerOptions, Sessi
   readonly pc?: number
   readonly selfStation?: number
   readonly messageWait?: number
+  readonly answerTime?: number
   readonly monitoringTimer?: number
   readonly probe?: ProbeKind | JwProbeKind
   readonly password?: boolean
@@ -162,6 +163,12 @@ function addLineOptions(command: Command): void {
 
 function addRouteOptions(command: Command): void {
   command
+    .addOption(
+      new Option(
+        '--answer-time <ms>',
+        'until the first character of an answer, then the PLC counts as silent; default 500',
+      ).argParser(whole(1, 60_000)),
+    )
     .optionsGroup('Another station or CPU:')
     .addOption(new Option('--network <number>', 'another network').argParser(whole(0, 255)))
     .addOption(
@@ -281,7 +288,8 @@ export function clientOptions(options: ConnectionOptions & FormatOptions, allow:
 /** Address and port, or a serial port. */
 function wayTo(options: ConnectionOptions): NetworkPlc | SerialPlc {
   const { serial: path, udp } = options
-  const { path: _, ...line } = serialPortOf(options) ?? {}
+  const { path: _, ...port } = serialPortOf(options) ?? {}
+  const line = { ...port, ...given(options, ['answerTime']) }
   if (path !== undefined) {
     const other = (['plc', 'host', 'port', 'udp'] as const).find((name) => options[name] !== undefined)
     if (other !== undefined) throw badPeer(`Give --serial or --${other}, not both.`, 'serial')

@@ -231,6 +231,16 @@ describe('simulate, a serial line', () => {
     await program.says(/station 3 readWords: carried out/)
   })
 
+  test('that answers later than usual is read with a longer answer time', async () => {
+    const { port } = await simulate('--stations', '0', '--fault', 'delay:ms=700')
+    const read = (...args: readonly string[]) =>
+      run('read', 'D0', '--plc', `127.0.0.1:${port}`, '--profile', 'fx5-serial', ...args)
+    const late = await read('--timeout', '9000', '--probe', 'none')
+    expect([late.code, late.err]).toEqual([expect.any(Number), expect.stringContaining('answer time of the line')])
+    expect(late.code).not.toBe(0)
+    expect((await read('--answer-time', '2000')).code).toBe(0)
+  })
+
   test('at a serial port', async () => {
     const pair = await ttyPair()
     try {
