@@ -158,6 +158,8 @@ function typeProblem(operand: JwOperand, type: ByteType): string | undefined {
       if (isBit) return `${text} is a byte: name the bit, ${text}.0 to ${text}.7.`
       return operand.kind === 'b' ? currentValueProblem(operand, type) : undefined
     default:
+      if (isBit && operand.kind === 'MD')
+        return `${text} is an MD, which is neither set nor reset (result code 04H). It has a word, WORD.`
       return TIMER_TYPES.includes(type.name)
         ? undefined
         : `${text} has a current value, which is UINT (or WORD: as it is, with bit 15); BOOL sets and resets it. It has no ${formatByteType(type)}.`

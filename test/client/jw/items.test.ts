@@ -343,6 +343,7 @@ describe('writing', () => {
     ['too few values', '09000[2]', [1], 'BAD_VALUE'],
     ['one value for an array', '09000[2]', 1, 'BAD_VALUE'],
     ['what no source places', '016000', true, 'OUT_OF_RANGE'],
+    ['an MD, which nothing sets or resets', 'MD0012:BOOL', true, 'BAD_TYPE'],
   ])('%s is refused before anything is sent', async (_name, item, value, code) => {
     start()
     expect(await failureOf(client.write(item, value as number))).toMatchObject({ code, outcome: 'notSent' })
