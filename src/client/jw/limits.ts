@@ -8,7 +8,7 @@ import type { JwSettings } from './settings'
 
 type Bounds = Pick<JwSettings, 'maxData' | 'maxMessage' | 'lists' | 'model'>
 
-/** How many of what one request carries. 0: there is no such request. */
+/** How many of what one request carries. Scattered ones 0: there is no such request. */
 export interface JwLimits {
   /** Bytes in a row, in either form of addresses. */
   readonly readBytes: number
@@ -44,8 +44,9 @@ export function jwLimits(protocol: JwProtocol, settings: Bounds): JwLimits {
     return Math.max(1, Math.min(most, ...room))
   }
   const list = (exchange: (count: number) => Exchange<unknown>) => (bounds.lists ? fitting(MOST.list, exchange) : 0)
+  // A model that has none refuses the request, and says why.
   const parameters = (exchange: (count: number) => Exchange<unknown>) =>
-    bounds.isJw300 ? fitting(maxData, exchange) : 0
+    bounds.isJw300 ? fitting(maxData, exchange) : maxData
   const unit = { rack: 0, unit: 0, address: 0 } as const
   const items = <T>(count: number, item: T) => Array.from({ length: count }, () => item)
   const system = { segment: 8, address: 0 } as const

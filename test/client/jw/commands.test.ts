@@ -247,6 +247,17 @@ describe('parameters of option units', () => {
   })
 })
 
+test('parameters of units are refused for a model that has no commands for them', async () => {
+  start({ model: 'jw30h' })
+  const option = client.parameters.optionUnit({ rack: 0, unit: 0 })
+  const special = client.parameters.specialIo({ rack: 0, unit: 0 })
+  const unsupported = { code: 'UNSUPPORTED', outcome: 'notSent' }
+  expect(await failureOf(option.read(0, 1))).toMatchObject(unsupported)
+  expect(await failureOf(option.write([{ address: 0, bytes: Uint8Array.of(1) }]))).toMatchObject(unsupported)
+  expect(await failureOf(special.read(0, 1))).toMatchObject(unsupported)
+  expect(await failureOf(special.write(0, Uint8Array.of(1)))).toMatchObject(unsupported)
+})
+
 test('parameters of special I/O units are read and written', async () => {
   start()
   const unit = client.parameters.specialIo({ rack: 1, unit: 3 })
