@@ -2,7 +2,7 @@
 
 import { hex } from '../../basics/hex'
 import { checkNames, type OptionNames, wholeNumber } from '../../basics/option-checks'
-import { PlcError, UnfinishedError, VerifyError } from '../../errors'
+import { PlcError, RequestError, UnfinishedError, VerifyError } from '../../errors'
 import { jwCommands } from '../../jw/commands/commands'
 import {
   checkBlocks,
@@ -104,6 +104,8 @@ function optionUnit(parts: JwCallParts, limits: JwLimits, unit: JwUnitPlace, tur
     },
     write: async (blocks, options = {}) => {
       checkBlocks(blocks)
+      // Stop and start alone would interrupt the unit for nothing.
+      if (blocks.length === 0) throw new RequestError('BAD_VALUE', 'There are no parameters to write.', 'blocks')
       const steps = startProcedure(blocks.flatMap((block) => cut(block, limits.writeParameters)))
       parts.permit('configure', jwCommands.writeOptionParameters.title)
       const deadline = new Deadline(parts.clock, callOptionsOf(options), parts.timeout)

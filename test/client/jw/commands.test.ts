@@ -238,10 +238,11 @@ describe('parameters of option units', () => {
     expect(await failureOf(writing)).toMatchObject({ code: 'NOT_VERIFIED' })
   })
 
-  test('check code and start switch are not for the caller to write', async () => {
+  test('check code and start switch are not for the caller to write, and nothing is no parameters', async () => {
     start()
     const writing = client.parameters.optionUnit(place).write([{ address: 0x7ff, bytes: Uint8Array.of(1) }])
     expect(await failureOf(writing)).toMatchObject({ code: 'BAD_VALUE' })
+    expect(await failureOf(client.parameters.optionUnit(place).write([]))).toMatchObject({ code: 'BAD_VALUE' })
     expect(() => client.parameters.optionUnit({ rack: 8, unit: 0 })).toThrow('rack')
     expect(plc.asked).toEqual([])
   })
