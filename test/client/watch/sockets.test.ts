@@ -1,8 +1,9 @@
 /** Watches of both families through real sockets. */
 import { describe, expect, test } from '@jest/globals'
-import type { WatchGap } from '../../../src/index'
+import { createPlcSimulator } from '../../../src/entry/simulator'
+import { createMelsecClient, type WatchGap } from '../../../src/index'
 import { onSockets, SmallJw } from '../jw/small-jw'
-import { until, withLine } from '../line'
+import { clientOptions, kind, until, withLine } from '../line'
 
 const ITEMS = { level: 'D100:REAL', running: 'M10', text: 'D200:STRING(4)' } as const
 
@@ -65,6 +66,31 @@ describe.each(['tcp 3E binary iq-r', 'udp 4E ascii iq-r', 'tcp 3E binary iq-f'])
       expect(gap?.scans).toBeGreaterThan(0)
       expect(Number(gap?.to)).toBeGreaterThan(Number(gap?.from))
     }))
+})
+
+test('a PLC that was switched off is watched again when it is back, also what is read once an hour', async () => {
+  const first = createPlcSimulator({ profile: 'iq-r' })
+  await first.listen()
+  first.write('D100:REAL', 1)
+  const client = createMelsecClient(clientOptions(kind('tcp 3E binary iq-r'), first))
+  let gap: WatchGap | undefined
+  const onChange = (update: { gap?: WatchGap }) => {
+    gap ??= update.gap
+  }
+  const watch = client.watch(ITEMS, { every: 3_600_000, onChange })
+  await until(() => watch.values.level.quality === 'good')
+  const port = first.tcp?.port ?? 0
+  await first.close()
+  await until(() => watch.values.level.quality === 'bad')
+  expect([watch.values.level.value, watch.values.level.stale]).toEqual([1, true])
+  const second = createPlcSimulator({ profile: 'iq-r', tcp: { port } })
+  second.write('D100:REAL', 2)
+  await second.listen()
+  await until(() => watch.values.level.quality === 'good')
+  expect(watch.values.level.value).toBe(2)
+  expect(gap).toMatchObject({ scans: 1 })
+  await client.close()
+  await second.close()
 })
 
 test('scans come to their turn beside writes without end, and the writes beside them', () =>
