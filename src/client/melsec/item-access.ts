@@ -202,9 +202,10 @@ export class ItemAccess implements ItemSource {
     return this.#isCalledAsInFrame ? { ...item, address: namedAsFx5(item.address) } : item
   }
 
-  /** The PLC registers per connection, and over UDP that is the local port. */
+  /** The PLC registers per connection; over UDP that is the local port, on a serial line whoever speaks. */
   #monitorUnusable(): string | undefined {
-    const { transport, frame } = this.#parts.settings
+    const { transport, frame, serialLine } = this.#parts.settings
+    if (serialLine?.isShared === true) return ON_SHARED_LINE
     if (transport !== 'udp') return undefined
     if (!frameFacts[frame].serial) {
       return `Over UDP the ${frameFacts[frame].title} frame changes the local port with every request, so the PLC would not find the registration again. The 4E frame or TCP would.`
@@ -213,6 +214,9 @@ export class ItemAccess implements ItemSource {
     return 'Another monitor of this client is registered. Over UDP a registration may arrive twice or late, and take the place of this one without anybody noticing. Over TCP they take turns.'
   }
 }
+
+const ON_SHARED_LINE =
+  'A PLC on a serial line remembers one registration, whoever made it: others who ask it on a line that is shared, or behind a device server, could replace it without anybody noticing.'
 
 function noItem(given: unknown, place: string): RequestError {
   const isObject = typeof given === 'object' && given !== null && 'address' in given

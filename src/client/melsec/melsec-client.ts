@@ -69,7 +69,7 @@ import {
 } from './named-request'
 import { checkOnDemand, unsolicitedOf } from './on-demand'
 import type { MelsecClientOptions } from './options'
-import { notPermitted, overUdp } from './permission'
+import { notPermitted, onSharedLine, overUdp } from './permission'
 import { probesOf } from './probes'
 import { RemotePassword } from './remote-password'
 import type { SendCommand } from './send-command'
@@ -390,6 +390,7 @@ export class MelsecPlcClient implements MelsecClient {
   #exchangesOf({ command, message, before }: NamedRequest, options: Pick<ExchangeOptions, 'form'>) {
     if (before === undefined) return [undefined, this.#protocol.exchange(command, message, options)] as const
     if (this.#settings.transport === 'udp') throw overUdp(command.title)
+    if (this.#settings.serialLine?.isShared === true) throw onSharedLine(command.title)
     const registering = this.#protocol.exchange(before.command, before.message, options)
     const context = registering.message
     return [registering, this.#protocol.exchange(command, message, { ...options, context })] as const

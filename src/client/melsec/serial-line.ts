@@ -62,11 +62,15 @@ export class SerialLine implements MelsecLine {
   readonly line: Line
   /** Behind a device server. */
   readonly isRemote: boolean
+  /** Others may ask the same PLC on it. */
+  readonly isShared: boolean
   readonly #description: string
 
-  constructor(options: MelsecLineOptions, usual?: SerialFrameName) {
-    this.settings = settleSerialLine(options, usual)
+  /** `isOwn`: of one client, and made by it. */
+  constructor(options: MelsecLineOptions, { isOwn = false }: { readonly isOwn?: boolean } = {}) {
+    this.settings = settleSerialLine(options)
     this.isRemote = options.host !== undefined
+    this.isShared = this.isRemote || !isOwn
     const openTransport = options.openTransport ?? transportOf(options, this.settings)
     this.#description = options.openTransport === undefined ? openTransport().description : 'a transport of its own'
     this.line = new Line({

@@ -53,6 +53,7 @@ export function serialLineFor(options: MelsecClientOptions, profile: Profile): S
       openTransport: options.openTransport,
       clock: options.clock,
     }),
+    { isOwn: true },
   )
 }
 
