@@ -37,7 +37,7 @@ describe('a message goes into JSON text and comes back', () => {
         fc.property(messages, (message) => {
           const json = JSON.parse(JSON.stringify(jwMessageToJson<JwCommand>(command, message as never))) as unknown
           const back = jwMessageFromJson(command, json)
-          // An extended address may come back in the basic form: the same byte, which its text is.
+          // An extended address may come back in the basic form: the same byte.
           expect(jwMessageToJson<JwCommand>(command, back)).toEqual(json)
           const isExtended = JSON.stringify(message).includes('"extended":true')
           if (!isExtended) expect(bytesOf(command, back)).toBe(bytesOf(command, message as object))
@@ -55,9 +55,10 @@ describe('addresses', () => {
     ['09000', { file: 0, address: 0o4000 }],
     ['KO0403', { file: 0, address: 0o403 }],
     ['F2:012345', { file: 2, address: 0o12345 }],
-    // The file registers behind the first page: the basic form reaches them as files of their own.
-    ['F1:00200000', { file: 2, address: 0 }],
-    ['F1:37777777', { file: 0x80, address: 0xffff }],
+    ['F1:00177777', { file: 1, address: 0xffff }],
+    // The file registers behind 64 KiB are in the extended form, which a JW30H refuses: its file 2 is another byte.
+    ['F1:00200000', { file: 1, address: 0x10000, extended: true }],
+    ['F1:37777777', { file: 1, address: 0x7f_ffff, extended: true }],
   ])('%s', (text, address) => {
     expect(read(text)).toEqual(address)
   })
@@ -76,7 +77,7 @@ describe('addresses', () => {
     const shown = (address: object) =>
       jwMessageToJson(jwCommands.readDataMemory, { head: address as never, length: 1 }).head
     expect(shown({ file: 0, address: 0o4000 })).toBe('F0:004000')
-    expect(shown({ file: 2, address: 0 })).toBe('F1:00200000')
+    expect(shown({ file: 2, address: 0 })).toBe('F2:000000')
     expect(shown({ file: 1, address: 0o200000, extended: true })).toBe('F1:00200000')
   })
 

@@ -17,7 +17,7 @@ import {
   writerOf,
 } from '../../codec/codec'
 import { RequestError } from '../../errors'
-import { FILE_REGISTERS, type JwAddress, jwAddress, jwExtendedAddress, PAGE, registersOfPage } from '../address'
+import { FILE_REGISTERS, type JwAddress, jwAddress, jwExtendedAddress, PAGE } from '../address'
 import { jwKind } from '../operand/kind'
 import type { JwOperandOptions } from '../operand/map'
 import { formatJwOperand } from '../operand/notation'
@@ -91,7 +91,9 @@ function addressOf(text: string, form: 'basic' | 'extended', options: JwOperandO
       `${JSON.stringify(text)} is ${what}; a command takes the byte of a file, e.g. 09012, KO0403 or F1:00001234.`,
     )
   }
-  return form === 'extended' ? jwAddressOf(place, 'extended') : jwAddressOf(place, 'basic')
+  // The basic form of a byte behind 64 KiB names another file, which on a JW30H holds another byte.
+  const isBehind = place.file === FILE_REGISTERS && place.address >= PAGE
+  return jwAddressOf(place, isBehind ? 'extended' : form)
 }
 
 /**
@@ -100,11 +102,8 @@ function addressOf(text: string, form: 'basic' | 'extended', options: JwOperandO
  */
 export function jwAddressToJson(value: unknown): unknown {
   if (!isJwAddress(value)) return value
-  const { file, address } = value
-  // Page n of the file registers, as the basic form names them, is the same byte.
-  const { address: number } =
-    value.extended === true || file < FILE_REGISTERS ? value : registersOfPage(file, address % PAGE)
-  return formatJwOperand({ kind: 'F', file: Math.min(file, FILE_REGISTERS), number })
+  const { file, address: number } = value
+  return formatJwOperand({ kind: 'F', file, number })
 }
 
 function isJwAddress(value: unknown): value is JwAddress {

@@ -180,6 +180,15 @@ describe('requests', () => {
   })
 })
 
+test('a byte that a JW30H does not have is not asked for in another file by a request either', () => {
+  const { client: made } = inMemory({ model: 'jw30h' })
+  client = made
+  const explained = () => made.explainRequest('readDataMemory', { head: 'F1:00200000', length: 1 })
+  expect(explained).toThrow(expect.objectContaining({ code: 'UNSUPPORTED', field: 'head' }))
+  const { message } = made.explainRequest('readDataMemory', { head: 'F2:000000', length: 1 })
+  expect(message.head).toBe('F2:000000')
+})
+
 describe('the probe', () => {
   test.each([
     ['writeMode', 1, []],
