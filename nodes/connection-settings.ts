@@ -1,5 +1,6 @@
 // The settings of a connection as a flow stores them, and the client's options made of them.
 import type {
+  JwClientOptions,
   MelsecLine,
   MelsecOptions,
   NetworkPlc,
@@ -9,14 +10,18 @@ import type {
   ValueFormat,
 } from '../src/index'
 import { encodings, ethernetFrameNames, probeKinds, profileIds, profiles } from '../src/index'
+import { type FamilyName, type FamilyOptions, familyNames } from './family'
 import { Fields, present, type SettingsContext } from './fields'
+import { JW_FIELDS, type JwSettings, jwOptionsOf, jwSpeech, ownAreasIn } from './jw-settings'
 import type { Texts } from './texts'
 
 /**
  * What the editor stores. Numbers are text as typed, `''` is the default of the PLC series or the system, and any
  * text may hold `${NAME}`.
  */
-export interface ConnectionSettings {
+export interface ConnectionSettings extends JwSettings {
+  /** `melsec` or `jw`; `''` is `melsec`. */
+  readonly family: string
   /** `ethernet` or `serial`; `''` is `ethernet`. */
   readonly way: string
   /** Id of the serial line. */
@@ -77,6 +82,8 @@ export interface ConnectionSettings {
 }
 
 const TEXT_FIELDS = [
+  'family',
+  ...JW_FIELDS,
   'way',
   'line',
   'lineStation',
@@ -144,11 +151,45 @@ export function settingsOf(
   given: Readonly<Record<string, unknown>>,
   { texts, resolve }: SettingsContext,
 ): ConnectionSettings {
+  const fields = fieldsOf(texts)
   return {
-    ...fieldsOf(texts).textsOf(given, TEXT_FIELDS, resolve),
+    ...fields.textsOf(given, TEXT_FIELDS, resolve),
+    ownAreas: ownAreasIn(given, fields),
     allowWrites: given.allowWrites === true,
     allowControl: given.allowControl === true,
+    allowParameters: given.allowParameters === true,
   }
+}
+
+/** The family of the PLC. @throws NodeFailure NOT_CONFIGURED for one that there is not */
+export function familyOf(settings: ConnectionSettings, texts: Texts): FamilyName {
+  return fieldsOf(texts).choice(settings, 'family', familyNames) ?? 'melsec'
+}
+
+/**
+ * The options of the client of whichever family the PLC is.
+ * @param lineOf as of `optionsOf`
+ * @throws NodeFailure NOT_CONFIGURED naming the field
+ */
+export function familyOptionsOf(
+  settings: ConnectionSettings,
+  texts: Texts,
+  lineOf: (id: string) => MelsecLine,
+): FamilyOptions {
+  const family = familyOf(settings, texts)
+  return family === 'jw'
+    ? { family, options: jwOptions(settings, texts) }
+    : { family, options: optionsOf(settings, texts, lineOf) }
+}
+
+/** The options of the client of a Sharp JW. @throws NodeFailure NOT_CONFIGURED naming the field */
+export function jwOptions(settings: ConnectionSettings, texts: Texts): JwClientOptions {
+  return jwOptionsOf(settings, fieldsOf(texts), LONGEST_PAUSE)
+}
+
+/** Everything of a Sharp JW but where it is: enough to read its operands. */
+export function jwSpeechOf(settings: ConnectionSettings, texts: Texts): JwClientOptions {
+  return jwSpeech(settings, fieldsOf(texts))
 }
 
 /** Whether the PLC is on a serial line. @throws NodeFailure NOT_CONFIGURED for anything else than the two ways */

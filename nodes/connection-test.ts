@@ -10,11 +10,11 @@ import type { NodeAPI } from 'node-red'
 import {
   type CallOptions,
   ConnectionError,
-  createMelsecClient,
   EndCodeError,
   type Identity,
+  type JwClientOptions,
+  type JwInfo,
   type MelsecClient,
-  type MelsecClientOptions,
   type MelsecOptions,
   type PlcError,
   type PlcOnLine,
@@ -26,11 +26,13 @@ import { endpoint, objectIn, type Reply } from './admin'
 import { withoutCauses } from './causes'
 import { type PlcConnection, peerOf } from './connection'
 import { type AnsweringLine, answeringLines } from './connection-find'
-import { isOnLine, LINE_PROFILE, optionsOf, settingsOf } from './connection-settings'
+import { familyOf, isOnLine, jwOptions, LINE_PROFILE, optionsOf, settingsOf } from './connection-settings'
 import { detailsOf, type FailureDetails } from './failure'
 import { type FailureCode, isBadAnswer } from './failure-code'
+import { type AnyPlc, clientOf, type FamilyName, type FamilyOptions, forFamily } from './family'
 import { resolverOf } from './fields'
 import { type AnsweringForm, answeringForms } from './form-find'
+import { type AnsweringHeader, answeringHeader, jwIdentity, jwRounds } from './jw-test'
 import { lineToTest, type TestedLine } from './line-test'
 import type { StoredSettings } from './migration'
 import { type AnsweringStation, answeringStations, profileOnLine } from './station-find'
@@ -54,6 +56,8 @@ const TURNED_AWAY: readonly FailureCode[] = ['ENTRY_BUSY', 'CONNECT_FAILED', 'DI
 
 export interface TestResult extends Partial<Identity> {
   readonly ok: true
+  /** What a Sharp JW says of itself. */
+  readonly jw?: JwInfo
   /** ms */
   readonly roundTrip: { readonly min: number; readonly mean: number; readonly max: number; readonly count: number }
   /** Why the CPU did not say who it is. */
@@ -99,27 +103,25 @@ async function outcome(
   const connection = deployed(id)
   let peer = ''
   let port: number | undefined
+  let family: FamilyName = 'melsec'
   try {
-    const { options } = optionsIn(RED, id, body, texts)
-    peer = peerOf(options)
-    port = options.port
-    const isLine = options.line !== undefined
-    const running = connected(connection, options)
-    if (running !== undefined) return await ask(running, over, isLine)
-    const client = createMelsecClient({ ...options, connectTimeout: CONNECT })
+    const given = givenIn(RED, id, body, texts)
+    family = given.family
+    peer = peerOf(given.options)
+    port = given.options.port
+    const running = connected(connection, given)
+    if (running !== undefined) return await ask(running, over, isLineOf(given))
+    const plc = clientOf(withPatience(given))
     try {
-      return await ask(client, over, isLine)
+      return await ask(plc, over, isLineOf(given))
     } finally {
-      await client.close()
+      await plc.client.close()
     }
   } catch (error) {
     const details = detailsOf(error, texts)
     const { code, causes = [] } = details
     const strange = isBadAnswer(code) || badAnswerBehind(error)
-    const further =
-      strange && causes.length === 0 && port !== undefined
-        ? [texts('test.otherService', { port }), texts('test.otherLine')]
-        : causes
+    const further = strange && causes.length === 0 && port !== undefined ? strangers(family, port, texts) : causes
     const ours = isUp(connection) && TURNED_AWAY.includes(code)
     const message = shortMessage(details, peer, texts, port === undefined)
     return {
@@ -130,6 +132,14 @@ async function outcome(
       mayFind: MAY_FIND.includes(code) || strange,
     }
   }
+}
+
+/** Why something answers that is not what was expected. */
+function strangers(family: FamilyName, port: number, texts: Texts): string[] {
+  return {
+    melsec: [texts('test.otherService', { port }), texts('test.otherLine')],
+    jw: [texts('test.otherServiceJw', { port }), texts('test.otherHeader')],
+  }[family]
 }
 
 /** With its causes a message is long, and they are listed below it. */
@@ -154,6 +164,7 @@ function badAnswerBehind(error: unknown): boolean {
 /** What `POST /melsec-jw/connection/find` answers. */
 type Found =
   | { readonly ok: true; readonly lines: readonly AnsweringLine[] }
+  | { readonly ok: true; readonly headers: readonly AnsweringHeader[] }
   | { readonly ok: true; readonly stations: readonly AnsweringStation[] }
   | { readonly ok: true; readonly station: number; readonly forms: readonly AnsweringForm[] }
   | { readonly ok: false; readonly message: string; readonly causes: readonly string[] }
@@ -169,8 +180,10 @@ async function found(
   const id = typeof body.id === 'string' ? body.id : ''
   let peer = ''
   try {
-    const { options, tested } = optionsIn(RED, id, body, texts, true)
-    peer = peerOf(options)
+    const given = givenIn(RED, id, body, texts, true)
+    peer = peerOf(given.options)
+    if (given.family === 'jw') return await headersFound(given.options, over)
+    const { options, tested } = given
     if (options.line !== undefined) return await foundOnLine(options, tested, texts, over)
     const lines = await answeringLines(options, over)
     if (lines.length > 0) return { ok: true, lines }
@@ -199,21 +212,22 @@ async function foundOnLine(
     : { ok: false, message, causes: [] }
 }
 
-/**
- * The client's options, and its line.
- * @param searching many stations of a line are asked that are not there
- */
-function optionsIn(
-  RED: NodeAPI,
-  id: string,
-  body: StoredSettings,
-  texts: Texts,
-  searching = false,
-): { readonly options: ReturnType<typeof optionsOf>; readonly tested?: TestedLine } {
+async function headersFound(options: JwClientOptions, over: AbortSignal): Promise<Found> {
+  return { ok: true, headers: [await answeringHeader(options, over)] }
+}
+
+/** A client's options as the test makes them: with a place that is known, by a network or on a line. */
+type Given =
+  | { readonly family: 'melsec'; readonly options: ReturnType<typeof optionsOf>; readonly tested?: TestedLine }
+  | { readonly family: 'jw'; readonly options: JwClientOptions }
+
+/** @param searching many stations of a line are asked that are not there */
+function givenIn(RED: NodeAPI, id: string, body: StoredSettings, texts: Texts, searching = false): Given {
   const settings = settingsOf(objectIn(body, 'settings'), {
     texts,
     resolve: resolverOf(RED, RED.nodes.getNode(id), texts),
   })
+  if (familyOf(settings, texts) === 'jw') return { family: 'jw', options: jwOptions(settings, texts) }
   // The test is what finds the series out, so it does not need it.
   const usual = isOnLine(settings, texts) ? LINE_PROFILE : 'generic'
   const known = settings.profile === '' ? { ...settings, profile: usual } : settings
@@ -222,45 +236,73 @@ function optionsIn(
     tested = lineToTest(RED, { id: line, given: objectIn(body, 'line'), searching }, texts)
     return tested.line
   })
-  return tested === undefined ? { options } : { options, tested }
+  return { family: 'melsec', options, ...(tested === undefined ? {} : { tested }) }
+}
+
+function isLineOf(given: Given): boolean {
+  return given.family === 'melsec' && given.options.line !== undefined
+}
+
+function withPatience(given: Given): FamilyOptions {
+  return given.family === 'melsec'
+    ? { family: 'melsec', options: { ...given.options, connectTimeout: CONNECT } }
+    : { family: 'jw', options: { ...given.options, connectTimeout: CONNECT } }
 }
 
 /** The deployed connection has an entry of its PLC. */
 function isUp(connection: PlcConnection | undefined): boolean {
-  return connection?.current?.state.name === 'connected'
+  return connection?.connected !== undefined
 }
 
 /** The running client, when it speaks as is to be tested: the PLC may have no second entry for a test. */
-function connected(connection: PlcConnection | undefined, options: MelsecClientOptions): MelsecClient | undefined {
-  if (connection?.options === undefined || connection.current?.state.name !== 'connected') return undefined
-  const isSame = connection.options.line === options.line && wire(connection.options) === wire(options)
-  return isSame ? connection.current : undefined
+function connected(connection: PlcConnection | undefined, given: Given): AnyPlc | undefined {
+  const running = connection?.given
+  if (running === undefined || running.family !== given.family) return undefined
+  const isSame = lineIn(running) === lineIn(given) && wire(running.options) === wire(given.options)
+  return isSame ? connection?.connected : undefined
 }
 
-/** What the PLC sees of a client's options, but for its line. The dialog does not give the password away, so it is not compared. */
-function wire({
-  allowWrites,
-  allowControl,
-  gap,
-  format,
-  password,
-  reconnect,
-  queueLimit,
-  line,
-  ...seen
-}: MelsecClientOptions): string {
-  return JSON.stringify(seen)
+function lineIn({ family, options }: FamilyOptions): unknown {
+  return family === 'melsec' ? options.line : undefined
+}
+
+/** What the PLC does not see of a client's options; its line is compared by itself. The dialog does not give the password away. */
+const UNSEEN: readonly string[] = [
+  'allowWrites',
+  'allowControl',
+  'allowParameters',
+  'gap',
+  'format',
+  'areas',
+  'password',
+  'reconnect',
+  'queueLimit',
+  'line',
+]
+
+function wire(options: FamilyOptions['options']): string {
+  return JSON.stringify(Object.entries(options).filter(([name]) => !UNSEEN.includes(name)))
 }
 
 /** @param isLine what the client was told of its line says how long a question takes there */
-async function ask(client: MelsecClient, signal: AbortSignal, isLine: boolean): Promise<TestResult> {
+async function ask(plc: AnyPlc, signal: AbortSignal, isLine: boolean): Promise<TestResult> {
   const call = isLine ? { signal } : { timeout: QUESTION, signal }
-  await client.connect(isLine ? call : { timeout: CONNECT, signal })
-  const identity = await unlessRefused(() => identified(client, call, isLine))
-  const times = await rounds(client, call)
+  await plc.client.connect(isLine ? call : { timeout: CONNECT, signal })
+  return forFamily<Promise<TestResult>>(plc, {
+    melsec: async (client) => {
+      const identity = await unlessRefused(() => identified(client, call, isLine))
+      return {
+        ...('refusal' in identity ? { unidentified: identity.refusal } : identity.value),
+        ...measured(await rounds(client, call)),
+      }
+    },
+    jw: async (client) => ({ jw: await jwIdentity(client, call), ...measured(await jwRounds(client, call, ROUNDS)) }),
+  })
+}
+
+function measured(times: readonly number[]): Pick<TestResult, 'ok' | 'roundTrip'> {
   return {
     ok: true,
-    ...('refusal' in identity ? { unidentified: identity.refusal } : identity.value),
     roundTrip: {
       min: Math.min(...times),
       mean: sumOf(times) / times.length,

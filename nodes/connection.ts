@@ -1,7 +1,16 @@
 // One PLC connection shared by the nodes that use it.
 import type { Node } from 'node-red'
-import { type ConnectionState, createMelsecClient, type MelsecClient, type MelsecClientOptions } from '../src/index'
+import type { ConnectionState, MelsecClient } from '../src/index'
 import { detailsOf, NodeFailure, refusal } from './failure'
+import {
+  type AnyPlc,
+  clientOf,
+  type FamilyOptions,
+  forFamily,
+  type NodeClient,
+  type NodeEffect,
+  permissions,
+} from './family'
 import type { Texts } from './texts'
 
 /** A node that uses a connection and shows how it is. */
@@ -17,7 +26,7 @@ const GRACE = 5000
  * deploy leaves it without users or takes it away.
  */
 export class PlcConnection {
-  #client: MelsecClient | undefined
+  #plc: AnyPlc | undefined
   #closed = false
   #complained: string | undefined
   readonly #users = new Set<ConnectionUser>()
@@ -27,7 +36,7 @@ export class PlcConnection {
     private readonly node: Node,
     private readonly texts: Texts,
     /** What the client is made of; undefined when the settings are wrong. */
-    readonly options: MelsecClientOptions | undefined,
+    readonly given: FamilyOptions | undefined,
     /** Why there is no client; every node that uses the connection reports it. */
     readonly failure: NodeFailure | undefined,
   ) {}
@@ -36,11 +45,11 @@ export class PlcConnection {
    * Never throws: wrong settings become the `failure` of everybody who uses the connection.
    * @param optionsOf reads the settings
    */
-  static of(node: Node, texts: Texts, optionsOf: () => MelsecClientOptions): PlcConnection {
+  static of(node: Node, texts: Texts, optionsOf: () => FamilyOptions): PlcConnection {
     try {
-      const options = optionsOf()
-      const connection = new PlcConnection(node, texts, options, undefined)
-      connection.#open(options)
+      const given = optionsOf()
+      const connection = new PlcConnection(node, texts, given, undefined)
+      connection.#open(given)
       return connection
     } catch (error) {
       return new PlcConnection(node, texts, undefined, settingsFailure(error, texts))
@@ -51,27 +60,62 @@ export class PlcConnection {
     return this.#closed
   }
 
-  /** The client as it is, for the editor's test. */
-  get current(): MelsecClient | undefined {
-    return this.#client
+  /** What the client was made of, whichever family its PLC is of. */
+  get options(): FamilyOptions['options'] | undefined {
+    return this.given?.options
+  }
+
+  /** The client as it is, for status and test. */
+  get current(): NodeClient | undefined {
+    return this.#plc?.client
+  }
+
+  /** The PLC while it is connected, for the editor's test. */
+  get connected(): AnyPlc | undefined {
+    return this.#plc?.client.state.name === 'connected' ? this.#plc : undefined
   }
 
   /** @throws NodeFailure when the settings are wrong or the connection is closed. */
-  get client(): MelsecClient {
-    if (this.options === undefined) throw this.failure ?? refusal('NOT_CONFIGURED', this.texts('error.noConnection'))
+  get plc(): AnyPlc {
+    if (this.given === undefined) throw this.failure ?? refusal('NOT_CONFIGURED', this.texts('error.noConnection'))
     if (this.#closed) throw refusal('CLOSED', this.texts('error.closed'))
-    return this.#client ?? this.#open(this.options)
+    return this.#plc ?? this.#open(this.given)
+  }
+
+  /** What every client can do. @throws NodeFailure as `plc` does */
+  get client(): NodeClient {
+    return this.plc.client
   }
 
   /**
-   * The client for something that changes the PLC.
+   * The client of a MELSEC PLC, for what no other family has.
+   * @param what it is, a key of `feature` in the catalogue
+   * @throws NodeFailure UNSUPPORTED when the PLC is of another family; nothing is sent.
+   */
+  melsec(what: 'onDemand' | 'files' | 'memory'): MelsecClient {
+    return forFamily(this.plc, {
+      melsec: (client) => client,
+      jw: () => {
+        throw refusal('UNSUPPORTED', this.texts('error.notOfJw', { what: this.texts(`feature.${what}`) }))
+      },
+    })
+  }
+
+  /**
+   * The PLC for something that may change it.
    * @throws NodeFailure NOT_PERMITTED while the connection's owner has not allowed it; nothing is sent.
    */
-  clientFor(effect: 'write' | 'control'): MelsecClient {
-    const { client } = this
-    const allowed = effect === 'write' ? this.options?.allowWrites : this.options?.allowControl
-    if (allowed === true) return client
-    throw refusal('NOT_PERMITTED', this.texts(effect === 'write' ? 'error.writesOff' : 'error.controlOff'))
+  plcFor(effect: NodeEffect): AnyPlc {
+    const { plc } = this
+    const permission = permissions[effect]
+    const given: Partial<Record<string, unknown>> = { ...this.options }
+    if (permission === undefined || given[permission.option] === true) return plc
+    throw refusal('NOT_PERMITTED', this.texts(permission.refusal))
+  }
+
+  /** As `plcFor`. */
+  clientFor(effect: NodeEffect): NodeClient {
+    return this.plcFor(effect).client
   }
 
   /** Connects in the background and tells the user about it until it leaves. @returns what leaves. */
@@ -93,9 +137,9 @@ export class PlcConnection {
 
   /** After each deploy: nobody uses the connection any more, so the PLC gets its entry back. */
   releaseUnused(): void {
-    if (this.#users.size > 0 || this.#client === undefined) return
-    const client = this.#client
-    this.#client = undefined
+    if (this.#users.size > 0 || this.#plc === undefined) return
+    const { client } = this.#plc
+    this.#plc = undefined
     this.#complained = undefined
     void client.close()
   }
@@ -104,8 +148,8 @@ export class PlcConnection {
   async close(): Promise<void> {
     this.#closed = true
     await this.#changesSettled()
-    await this.#client?.close()
-    this.#client = undefined
+    await this.#plc?.client.close()
+    this.#plc = undefined
   }
 
   async #changesSettled(): Promise<void> {
@@ -115,21 +159,22 @@ export class PlcConnection {
     await Promise.race([Promise.allSettled(this.#changes), waited])
   }
 
-  #open(options: MelsecClientOptions): MelsecClient {
-    const client = createMelsecClient(options)
+  #open(given: FamilyOptions): AnyPlc {
+    const plc = clientOf(given)
+    const { client }: { client: NodeClient } = plc
     client.on('state', (state) => this.#stateChanged(client, state))
-    this.#client = client
-    return client
+    this.#plc = plc
+    return plc
   }
 
-  #keepUp(client: MelsecClient): void {
+  #keepUp(client: NodeClient): void {
     if (client.state.name !== 'idle') return
     // How it ends is told by the state, to every user; the client goes on trying by itself.
     client.connect().catch(() => undefined)
   }
 
-  #stateChanged(client: MelsecClient, state: ConnectionState): void {
-    if (client !== this.#client) return
+  #stateChanged(client: NodeClient, state: ConnectionState): void {
+    if (client !== this.#plc?.client) return
     this.#log(state)
     for (const user of [...this.#users]) user.stateChanged(state)
   }
@@ -151,8 +196,10 @@ export class PlcConnection {
 }
 
 /** Where the PLC is, for people. */
-export function peerOf({ transport = 'tcp', host, port, line, route }: MelsecClientOptions): string {
-  return line === undefined ? `${transport} ${host}:${port}` : `${line.description}, station ${route?.station ?? 0}`
+export function peerOf(options: FamilyOptions['options']): string {
+  const { transport = 'tcp', host, port } = options
+  if (!('line' in options) || options.line === undefined) return `${transport} ${host}:${port}`
+  return `${options.line.description}, station ${options.route?.station ?? 0}`
 }
 
 /** Whatever the client has against the settings, it is they that are wrong. */

@@ -1,7 +1,7 @@
 // What a node hands to done(): an error that Node-RED carries to Catch nodes without losing what the plant must know.
 
 import { endCodeDigits } from '../src/basics/end-code-digits'
-import { commands } from '../src/entry/codec'
+import { commands, jwCommands } from '../src/entry/codec'
 import type { EndCodeAbout, EndCodeFamily, Language } from '../src/index'
 import {
   ClosedError,
@@ -167,7 +167,8 @@ function refusedText(error: EndCodeError, { meaning, remedy }: Explanation, text
 
 /** The command in the language of the runtime; the sets of MELSEC share its names, as far as they have the command. */
 function titleOf({ family, commandName = '' }: EndCodeError, texts: Texts): string | undefined {
-  return family !== 'jw' && Object.hasOwn(commands, commandName) ? texts(`command.${commandName}`) : undefined
+  const [known, part] = family === 'jw' ? [jwCommands, 'jwCommand'] : [commands, 'command']
+  return Object.hasOwn(known, commandName) ? texts(`${part}.${commandName}`) : undefined
 }
 
 function codeText({ family, endCode, abnormalCode }: EndCodeError): string {

@@ -30,7 +30,7 @@ export function fileList(RED: NodeAPI, texts: Texts): void {
 async function list(connection: PlcConnection | undefined, directory: string, texts: Texts): Promise<Listed> {
   try {
     if (connection === undefined) return { ok: false, message: texts('error.notDeployed') }
-    const { client } = connection
+    const client = connection.melsec('files')
     if (directory === '') {
       return { ok: true, drives: client.files.drives.map(({ number, title }) => ({ number, title })) }
     }

@@ -1,27 +1,33 @@
 /** Node `melsec-jw-connection` (configuration): how to reach a PLC; its users share one client. */
 import type { Node, NodeAPI, NodeDef } from 'node-red'
-import { typeNames } from '../src/entry/address'
 import { type MelsecClientOptions, type MelsecLine, type ProfileId, profileIds, profiles } from '../src/index'
 import { addressCheck } from './address-check'
 import { connectionOf, PlcConnection, setConnection } from './connection'
-import { LONGEST_PAUSE, optionsOf, settingsOf } from './connection-settings'
+import { familyOptionsOf, LONGEST_PAUSE, settingsOf } from './connection-settings'
 import { connectionTest } from './connection-test'
 import { refusal } from './failure'
+import { families } from './family'
 import { type Resolve, resolverOf } from './fields'
 import { lineOf } from './line'
 import type { Migration } from './migration'
 import { readSettings } from './node'
 import { sharedTexts, type Texts } from './texts'
 
-// The way to the PLC: what is older knows Ethernet only.
-const migrations: readonly Migration[] = [{ version: 2, up: (settings) => ({ way: 'ethernet', ...settings }) }]
+const migrations: readonly Migration[] = [
+  // The way to the PLC: what is older knows Ethernet only.
+  { version: 2, up: (settings) => ({ way: 'ethernet', ...settings }) },
+  // The family of the PLC: what is older knows MELSEC only.
+  { version: 3, up: (settings) => ({ family: 'melsec', ...settings }) },
+]
 
 function connect(RED: NodeAPI, node: Node, stored: NodeDef, texts: Texts): PlcConnection {
   const connection = PlcConnection.of(node, texts, () => {
     const current = readSettings({ ...stored }, migrations, texts)
     const resolve = resolverOf(RED, node, texts)
-    const options = optionsOf(settingsOf(current, { texts, resolve }), texts, (id) => deployedLine(RED, id, texts))
-    return { ...options, ...(hasPassword(options) ? secretsOf(node, resolve) : {}) }
+    const given = familyOptionsOf(settingsOf(current, { texts, resolve }), texts, (id) => deployedLine(RED, id, texts))
+    if (given.family === 'jw') return given
+    const { options } = given
+    return { family: 'melsec', options: { ...options, ...(hasPassword(options) ? secretsOf(node, resolve) : {}) } }
   })
   if (connection.failure !== undefined) node.error(connection.failure)
   node.on('close', (done: () => void) => {
@@ -53,7 +59,7 @@ function secretsOf(node: Node, resolve: Resolve): { readonly password?: string }
 
 /** What the editor knows of the library, so that nothing is written twice. Node-RED wants these names. */
 const editorSettings = {
-  melsecJwConnectionTypes: { value: [...typeNames], exportable: true },
+  melsecJwConnectionFamilies: { value: { ...families }, exportable: true },
   melsecJwConnectionProfiles: {
     value: Object.fromEntries(profileIds.map((id) => [id, factsOf(id)])),
     exportable: true,

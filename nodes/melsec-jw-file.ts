@@ -152,6 +152,8 @@ function writing({ settings, tools, file, writer, password, transfer }: Parts): 
 
 function prepare(settings: StoredSettings, tools: Tools, display: Display): Work {
   const { RED, node, texts, connection } = tools
+  // Of a PLC without files this is seen at the deploy.
+  connection.melsec('files')
   const transfers = new Transfers(display, texts)
   node.on('close', () => transfers.close())
   const take = actionIn(settings, texts).prepare({
@@ -159,8 +161,11 @@ function prepare(settings: StoredSettings, tools: Tools, display: Display): Work
     tools,
     file: pathIn(settings, 'file', tools),
     password: passwordOf(RED, tools),
-    reader: () => connection.client,
-    writer: () => connection.clientFor('write'),
+    reader: () => connection.melsec('files'),
+    writer: () => {
+      connection.plcFor('write')
+      return connection.melsec('files')
+    },
     transfer: (what) => transfers.options(what),
   })
   return async (message) => {

@@ -24,7 +24,7 @@ function listen(settings: StoredSettings, tools: Tools, display: Display): undef
   const output = wordIn(settings, 'output', outputs, texts)
   const topic = textIn(settings, 'topic', texts)
   const named = topic === '' ? {} : { topic }
-  const { client } = connection
+  const client = connection.melsec('onDemand')
 
   const failed = (error: unknown, { route, timestamp }: OnDemand | UnsolicitedFrame, payload: Buffer) => {
     const failure = failureOf(error, texts)

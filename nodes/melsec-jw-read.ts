@@ -1,9 +1,10 @@
 /** Node `melsec-jw-read`: reads device values when a message arrives and passes the message on with them. */
 import type { NodeAPI } from 'node-red'
-import { type Item, type MelsecClient, nameResults, type ReadPlan } from '../src/index'
+import { type Item, nameResults, type ReadPlan } from '../src/index'
 import { busyRuleIn } from './busy'
 import { int64Forms } from './carried-value'
 import { refusal } from './failure'
+import type { NodeClient } from './family'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type UserType, type Work } from './node'
 import { type NamedItems, namedItems } from './read-items'
@@ -57,8 +58,8 @@ function itemSource(settings: StoredSettings, { RED, node, texts }: Tools): Item
 }
 
 /** The plan of the last items, so that what is read again and again is parsed and packed once. */
-function preparedPlans(): (client: MelsecClient, items: readonly Item[]) => ReadPlan {
-  let last: { client: MelsecClient; key: string; items: readonly Item[]; plan: ReadPlan } | undefined
+function preparedPlans(): (client: NodeClient, items: readonly Item[]) => ReadPlan {
+  let last: { client: NodeClient; key: string; items: readonly Item[]; plan: ReadPlan } | undefined
   return (client, items) => {
     if (last !== undefined && last.client === client && last.items === items) return last.plan
     const key = JSON.stringify(items)

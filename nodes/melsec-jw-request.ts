@@ -1,12 +1,11 @@
 /** Node `melsec-jw-request`: any command of the manuals, and the buffer memory of modules by their names. */
 import type { NodeAPI } from 'node-red'
-import { commandNamed, commands, describeCommand } from '../src/entry/codec'
 import { type BufferMemory, extendUnits, type MelsecClient, type ModulePlace } from '../src/index'
-import type { PlcConnection } from './connection'
 import { refusal } from './failure'
 import { InOrder } from './in-order'
 import { type Input, inputIn } from './input'
 import type { Migration, StoredSettings } from './migration'
+import { requestFacts, requestsOf } from './named-requests'
 import { registerUser, type Tools, type Work } from './node'
 import { jsonOf, requestCheck } from './request-check'
 import { textIn, wordIn } from './stored'
@@ -30,21 +29,17 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
 
 function commandWork(settings: StoredSettings, tools: Tools): Work {
   const { connection, texts } = tools
-  const { name, effect } = commandNamed(textIn(settings, 'command', texts))
+  const { name, effect } = requestsOf(connection.plc).effect(textIn(settings, 'command', texts))
   const asked = messageSource(settings, tools)
   // A fixed message that the PLC cannot be asked is seen at the deploy.
-  if (asked.fixed !== undefined) connection.client.explainRequest(name, asked.fixed)
+  if (asked.fixed !== undefined) requestsOf(connection.plc).check(name, asked.fixed)
   const inOrder = new InOrder(tools)
   return async (message) => {
     message.payload = await inOrder.act(asked.of(message), async (json) =>
-      clientFor(connection, effect).requestByName(name, json),
+      requestsOf(connection.plcFor(effect)).send(name, json),
     )
     return { messages: [message] }
   }
-}
-
-function clientFor(connection: PlcConnection, effect: string): MelsecClient {
-  return effect === 'write' || effect === 'control' ? connection.clientFor(effect) : connection.client
 }
 
 interface MessageSource {
@@ -73,14 +68,14 @@ function memoryWork(settings: StoredSettings, tools: Tools): Work {
   const { connection, texts } = tools
   const of = memorySource(settings, texts)
   // A module that is not known, or not there, is seen at the deploy.
-  of(connection.client)
+  of(connection.melsec('memory'))
   const address = inputIn(settings, 'address', numberTypes, tools)
   if (wordIn(settings, 'access', accesses, texts) === 'read') {
     const points = inputIn(settings, 'points', numberTypes, tools)
     return async (message) => {
       const [where, count] = await Promise.all([address(message), points(message)])
       const from = numberOf('address', where, texts)
-      message.payload = await of(connection.client).read(from, numberOf('points', count, texts))
+      message.payload = await of(connection.melsec('memory')).read(from, numberOf('points', count, texts))
       return { messages: [message] }
     }
   }
@@ -89,7 +84,8 @@ function memoryWork(settings: StoredSettings, tools: Tools): Work {
   return async (message) => {
     await inOrder.act(Promise.all([address(message), values(message)]), async ([where, given]) => {
       const from = numberOf('address', where, texts)
-      await of(connection.clientFor('write')).write(from, wordsOf(given, texts))
+      connection.plcFor('write')
+      await of(connection.melsec('memory')).write(from, wordsOf(given, texts))
     })
     return { messages: [message] }
   }
@@ -127,7 +123,7 @@ function wordsOf(given: unknown, texts: Texts): readonly number[] {
 
 const editorSettings = {
   melsecJwRequestCommands: {
-    value: Object.values(commands).map((command) => describeCommand(command)),
+    value: requestFacts,
     exportable: true,
   },
   melsecJwRequestModules: {

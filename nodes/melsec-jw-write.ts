@@ -1,7 +1,8 @@
 /** Node `melsec-jw-write`: writes values when a message arrives, and passes the message on when the PLC has taken them. */
 import type { NodeAPI } from 'node-red'
-import { type Item, type MelsecClient, nameResults } from '../src/index'
+import { type Item, nameResults } from '../src/index'
 import { refusal } from './failure'
+import type { NodeClient } from './family'
 import { InOrder } from './in-order'
 import type { Migration, StoredSettings } from './migration'
 import { registerUser, type Tools, type Work } from './node'
@@ -45,7 +46,7 @@ function prepare(settings: StoredSettings, tools: Tools): Work {
   }
 }
 
-async function check(client: MelsecClient, entries: readonly NamedEntry[], { texts }: Tools): Promise<void> {
+async function check(client: NodeClient, entries: readonly NamedEntry[], { texts }: Tools): Promise<void> {
   const results = nameResults(
     await client.read(entries.map((entry) => readBackItem(client, entry))),
     entries.map(({ name }) => name),
@@ -57,14 +58,14 @@ async function check(client: MelsecClient, entries: readonly NamedEntry[], { tex
 }
 
 /** A list that was written to a label says itself how many elements it has; reading must be told. */
-function readBackItem(client: MelsecClient, { item, value }: NamedEntry): Item {
+function readBackItem(client: NodeClient, { item, value }: NamedEntry): Item {
   const explanation = client.explain(item)
   if (!('label' in explanation) || !Array.isArray(value) || explanation.count !== undefined) return item
   const given = typeof item === 'string' ? { address: item } : item
   return { ...given, count: value.length }
 }
 
-function typeOf(client: MelsecClient, entry: NamedEntry | undefined): string {
+function typeOf(client: NodeClient, entry: NamedEntry | undefined): string {
   return entry === undefined ? '' : (client.explain(entry.item).type ?? '')
 }
 

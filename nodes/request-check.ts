@@ -9,6 +9,7 @@ import { speaker } from './address-check'
 import { endpoint, objectIn, type Reply } from './admin'
 import { detailsOf } from './failure'
 import type { StoredSettings } from './migration'
+import { requestsOf } from './named-requests'
 import type { Texts } from './texts'
 
 export type CheckedRequest = { readonly ok: true } | { readonly ok: false; readonly message: string }
@@ -30,10 +31,10 @@ function checkMessage(
   { command, message }: { readonly command: string; readonly message: string },
   texts: Texts,
 ): CheckedRequest {
-  const client = speaker(settings, texts)
-  if ('problem' in client) return { ok: false, message: client.problem }
+  const plc = speaker(settings, texts)
+  if ('problem' in plc) return { ok: false, message: plc.problem }
   try {
-    client.explainRequest(command, jsonOf(message, texts))
+    requestsOf(plc).check(command, jsonOf(message, texts))
     return { ok: true }
   } catch (error) {
     return { ok: false, message: detailsOf(error, texts).message }

@@ -24,6 +24,8 @@ export function entriesByName(given: unknown, rows: readonly ItemRow[], texts: T
   }
   const entries = Object.entries(given)
   if (entries.length === 0) throw refusal('BAD_INPUT', texts('error.noValues'))
+  const moved = entries.length > 1 ? entries.find(([name]) => isWholeNumber(name)) : undefined
+  if (moved !== undefined) throw refusal('BAD_INPUT', texts('error.numbersFirst', { name: moved[0] }))
   return entries.map(([name, value]: [string, unknown]) => entryOf(name, value, rows, texts))
 }
 
@@ -34,6 +36,11 @@ export function entriesByName(given: unknown, rows: readonly ItemRow[], texts: T
 export function entryByTopic(topic: unknown, value: unknown, rows: readonly ItemRow[], texts: Texts): NamedEntry {
   if (typeof topic === 'string' && topic.trim() !== '') return entryOf(topic, value, rows, texts)
   throw refusal('BAD_INPUT', texts('error.notTopic', { kind: topic === '' ? '""' : kindOf(topic) }))
+}
+
+/** JavaScript moves such names of an object to the front: the order of the writes would be lost, such as of register 19000. */
+function isWholeNumber(name: string): boolean {
+  return /^(?:0|[1-9][0-9]*)$/.test(name)
 }
 
 function entryOf(name: string, value: unknown, rows: readonly ItemRow[], texts: Texts): NamedEntry {

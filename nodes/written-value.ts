@@ -1,7 +1,8 @@
 // What a write node makes of values that are almost those of the type: text for numbers, 0 and 1 for bits.
-import { parseType, valueTypes } from '../src/entry/address'
-import type { MelsecClient, PlcValue } from '../src/index'
+import { byteTypes, parseByteType, valueTypes } from '../src/entry/address'
+import type { PlcValue } from '../src/index'
 import { NodeFailure } from './failure'
+import type { NodeClient } from './family'
 import type { Texts } from './texts'
 import { isSame, type NamedEntry, type WritableValue } from './write-values'
 
@@ -26,7 +27,7 @@ const BITS: ReadonlyMap<PlcValue, boolean> = new Map<PlcValue, boolean>([
  *   whose values are text in messages
  */
 export async function fittingEntries(
-  client: MelsecClient,
+  client: NodeClient,
   entries: readonly NamedEntry[],
   almost: boolean,
 ): Promise<NamedEntry[]> {
@@ -37,7 +38,7 @@ export async function fittingEntries(
 /** The failure of values that were not written as they are, with what to tick when that would make one of them fit. */
 export function withHint(
   failure: NodeFailure,
-  client: MelsecClient,
+  client: NodeClient,
   entries: readonly NamedEntry[],
   texts: Texts,
 ): NodeFailure {
@@ -54,12 +55,14 @@ export function withHint(
 /** @param type of the item, e.g. `LINT` or `STRING(20)`; `''` when it is not known */
 export function fitting(value: WritableValue, type: string, almost: boolean): WritableValue {
   if (type === '') return value
-  const { kind } = valueTypes[parseType(type).name]
+  const { kind } = KINDS[parseByteType(type).name]
   if (!almost && kind !== 'long') return value
   return Array.isArray(value) ? value.map((element) => fittingOne(element, kind)) : fittingOne(value, kind)
 }
 
-type Kind = (typeof valueTypes)[keyof typeof valueTypes]['kind']
+/** The types of every family. */
+const KINDS = { ...valueTypes, ...byteTypes }
+type Kind = (typeof KINDS)[keyof typeof KINDS]['kind']
 
 function fittingOne(value: PlcValue, kind: Kind): PlcValue {
   switch (kind) {
@@ -91,7 +94,7 @@ function finite(text: string): number | string {
 }
 
 /** The type of each item whose value may need it. Of labels only the PLC knows it, and no label is a LINT. */
-async function typesOf(client: MelsecClient, entries: readonly NamedEntry[], almost: boolean): Promise<string[]> {
+async function typesOf(client: NodeClient, entries: readonly NamedEntry[], almost: boolean): Promise<string[]> {
   const types = entries.map(({ item, value }) => (mayNeedType(value, almost) ? knownType(client, item) : ''))
   const asked = almost ? entries.filter((_, index) => types[index] === undefined) : []
   const results = asked.length === 0 ? [] : await client.read(asked.map(({ item }) => item))
@@ -104,7 +107,7 @@ async function typesOf(client: MelsecClient, entries: readonly NamedEntry[], alm
 }
 
 /** `''` for what is no item, which the write refuses; undefined for a label whose type was not given. */
-function knownType(client: MelsecClient, item: NamedEntry['item']): string | undefined {
+function knownType(client: NodeClient, item: NamedEntry['item']): string | undefined {
   try {
     return client.explain(item).type
   } catch {

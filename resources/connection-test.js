@@ -10,10 +10,18 @@
     return settings
   }
 
+  function isJw() {
+    return $('#node-config-input-family').val() === 'jw'
+  }
+
+  function isOnLine() {
+    return !isJw() && $('#node-config-input-way').val() === 'serial'
+  }
+
   /** The serial line of the open dialog, as it stands in the editor. */
   function lineSettings() {
     const line = RED.nodes.node($('#node-config-input-line').val())
-    if ($('#node-config-input-way').val() !== 'serial' || !line) return {}
+    if (!isOnLine() || !line) return {}
     return { line: Object.fromEntries(Object.keys(line._def.defaults).map((field) => [field, line[field]])) }
   }
 
@@ -103,8 +111,39 @@
     $('<div class="melsec-jw-hint">').text(melsecJw.text('test.setInLine')).appendTo(box)
   }
 
-  function showResult(result) {
-    const box = resultBox('melsec-jw-good', 'fa-check-circle', 'test.good')
+  /** The headers that a unit answers; one click takes one over. */
+  function showHeaders(node, headers) {
+    const box = resultBox('melsec-jw-good', 'fa-check-circle', 'test.foundHeader')
+    headers.forEach(({ header }) => {
+      $('<div>')
+        .append(
+          $('<button type="button" class="red-ui-button red-ui-button-small">')
+            .text(melsecJw.text('test.use', { what: node._(`option.header.${header}`) }))
+            .on('click', () => {
+              $('#node-config-input-header').val(header).trigger('change')
+              box.empty()
+              $('#melsec-jw-test').trigger('click')
+            }),
+        )
+        .appendTo(box)
+    })
+  }
+
+  /** What a Sharp JW says of itself; what it does not tell is left out. */
+  function showJw(box, { memorySize, runState, writeMode }) {
+    const memory = memorySize?.kiloWords
+    const told = [
+      memory && melsecJw.text('test.jwMemory', { size: memory }),
+      runState && melsecJw.text(`test.runState.${runState}`),
+      writeMode && melsecJw.text(`test.writeMode.${writeMode}`),
+    ].filter(Boolean)
+    $('<div>')
+      .text(told.length > 0 ? told.join(' · ') : melsecJw.text('test.cpu', { cpu: melsecJw.text('test.unidentified') }))
+      .appendTo(box)
+    if (writeMode === 'none') $('<div class="melsec-jw-hint">').text(melsecJw.text('test.noWrites')).appendTo(box)
+  }
+
+  function showCpu(box, result) {
     const cpu =
       result.model === undefined
         ? melsecJw.text('test.unidentified')
@@ -112,6 +151,12 @@
     $('<div>')
       .text(melsecJw.text('test.cpu', { cpu: cpu }))
       .appendTo(box)
+  }
+
+  function showResult(result) {
+    const box = resultBox('melsec-jw-good', 'fa-check-circle', 'test.good')
+    if (result.jw) showJw(box, result.jw)
+    else showCpu(box, result)
     if (result.unidentified) $('<div class="melsec-jw-hint">').text(result.unidentified).appendTo(box)
     if (result.warning?.code === 'W_RADIX') {
       $('<div class="melsec-jw-hint">')
@@ -151,6 +196,11 @@
       })
   }
 
+  /** What else can be tried, by family and way. */
+  const HEADERS = { ask: 'test.findHeader', running: 'test.findingHeader' }
+  const STATIONS = { ask: 'test.findStations', running: 'test.findingStations' }
+  const FRAMES = { ask: 'test.find', running: 'test.finding' }
+
   function prepareTest(node) {
     function askPlc(path, running, show) {
       const buttons = $('#melsec-jw-test').prop('disabled', true)
@@ -174,13 +224,14 @@
         if (result.ok) return showResult(result)
         const box = showFailure(result)
         if (!result.mayFind) return
-        const onLine = $('#node-config-input-way').val() === 'serial'
+        const search = isJw() ? HEADERS : isOnLine() ? STATIONS : FRAMES
         $('<button type="button" class="red-ui-button red-ui-button-small">')
-          .text(melsecJw.text(onLine ? 'test.findStations' : 'test.find'))
+          .text(melsecJw.text(search.ask))
           .appendTo(box)
           .on('click', () => {
-            askPlc('find', onLine ? 'test.findingStations' : 'test.finding', (found) => {
+            askPlc('find', search.running, (found) => {
               if (!found.ok) showFailure(found)
+              else if (found.headers) showHeaders(node, found.headers)
               else if (found.stations) showStations(found.stations)
               else if (found.forms) showForms(found)
               else showFound(node, found.lines)

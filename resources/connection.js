@@ -24,35 +24,67 @@
       showChoices(node, series.val())
       series.trigger('change')
     })
+    $('#node-config-input-family, #node-config-input-header, #node-config-input-areas').on('change', () => {
+      series.trigger('change')
+    })
     $('#node-config-input-profile')
       .on('change', function () {
         showWay($(this).val())
         showSeries(node, $(this).val())
+        showFamily(node)
       })
       .trigger('change')
     $('#node-config-input-reconnectLongest').attr('placeholder', RED.settings.melsecJwConnectionLongestPause)
-    $('#node-config-input-allowWrites, #node-config-input-allowControl')
-      .on('change', () => {
-        const writes = $('#node-config-input-allowWrites').prop('checked')
-        const controls = $('#node-config-input-allowControl').prop('checked')
-        $('#melsec-jw-allowed').text(
-          node._(
-            writes && controls
-              ? 'note.allowBoth'
-              : writes
-                ? 'note.allowWrites'
-                : controls
-                  ? 'note.allowControl'
-                  : 'note.allow',
-          ),
-        )
-      })
-      .trigger('change')
+    $('#node-config-input-allowWrites, #node-config-input-allowControl, #node-config-input-allowParameters').on(
+      'change',
+      () => {
+        showAllowed(node)
+      },
+    )
+    showAllowed(node)
     melsecJw.prepareTest(node)
   }
 
+  function isJw() {
+    return $('#node-config-input-family').val() === 'jw'
+  }
+
   function isOnLine() {
-    return $('#node-config-input-way').val() === 'serial'
+    return !isJw() && $('#node-config-input-way').val() === 'serial'
+  }
+
+  /** What flows may do with the PLC. */
+  function showAllowed(node) {
+    const [writes, controls, parameters] = ['Writes', 'Control', 'Parameters'].map((what) =>
+      $(`#node-config-input-allow${what}`).prop('checked'),
+    )
+    const both = writes && controls
+    const ofMelsec = node._(
+      both ? 'note.allowBoth' : writes ? 'note.allowWrites' : controls ? 'note.allowControl' : 'note.allow',
+    )
+    const ofJw = [
+      writes && node._('note.jwWrites'),
+      controls && node._('note.jwControl'),
+      parameters && node._('note.jwParameters'),
+    ].filter(Boolean)
+    $('#melsec-jw-allowed').text(isJw() ? ofJw.join(' ') || node._('note.allow') : ofMelsec)
+  }
+
+  /** What the family of the PLC has, and nothing else. Comes last, because it hides what the way would show. */
+  function showFamily(node) {
+    const jw = isJw()
+    $('.melsec-jw-of-jw').toggle(jw)
+    if (jw) $('.melsec-jw-of-melsec').hide()
+    else $('.melsec-jw-always-melsec').show()
+    showAllowed(node)
+    const header = $('#node-config-input-header').val()
+    $('.melsec-jw-header-relay').toggle(jw && header === 'relay')
+    $('.melsec-jw-header-bytes').toggle(jw && header === 'bytes')
+    $('.melsec-jw-own-areas').toggle(jw && $('#node-config-input-areas').val() === 'own')
+    // The editor would put the text of data-i18n back.
+    $('label[for="node-config-input-allowControl"] span')
+      .removeAttr('data-i18n')
+      .text(node._(jw ? 'label.allowControlJw' : 'label.allowControl'))
   }
 
   /** The line that is chosen in the dialog, as the editor has it. */

@@ -8,6 +8,20 @@
     return title.indexOf(key) >= 0 ? explanation.title : title
   }
 
+  /** One line: what an item of a Sharp JW is, and where it lies. */
+  function describeOperand({ text, type, count, where }) {
+    const bit = where.bit === undefined ? '' : melsecJw.text('explain.bitOf', { bit: where.bit })
+    return [
+      text.replace(/:.*$/, ''),
+      type + (count === undefined ? '' : ` × ${count}`),
+      melsecJw.text(`explain.in.${where.in}`, { file: where.file, at: where.at }),
+      bit,
+      melsecJw.text('explain.radix8'),
+    ]
+      .filter(Boolean)
+      .join(' · ')
+  }
+
   /** One line: what the item is. */
   function describe(explanation) {
     if (explanation.label !== undefined) {
@@ -19,6 +33,7 @@
         .filter(Boolean)
         .join(' · ')
     }
+    if (explanation.where !== undefined) return describeOperand(explanation)
     const range = explanation.first + (explanation.last === explanation.first ? '' : ` – ${explanation.last}`)
     const size = melsecJw.text(`explain.${explanation.size.unit}${explanation.size.count === 1 ? '' : 's'}`, {
       count: explanation.size.count,
@@ -65,7 +80,7 @@
   }
 
   /** `STRING(20)` is chosen as STRING with the length beside it. */
-  function typeFields(container, type, changed) {
+  function typeFields(container, type, changed, facts) {
     const parts = /^\s*([^()]*?)\s*(?:\(\s*(\d+)\s*\))?\s*$/.exec(type || '') || ['', type, '']
     const name = parts[1].toUpperCase()
     // The length stands inside the column of the type, so that the columns of all rows stay below their heads.
@@ -73,12 +88,16 @@
     const select = $('<select class="melsec-jw-type">')
       .attr('aria-label', melsecJw.text('label.itemType'))
       .appendTo(container)
-    $('<option>').val('').text(melsecJw.text('option.deviceType')).appendTo(select)
-    const names = RED.settings.melsecJwConnectionTypes || []
-    names.concat(name === '' || names.indexOf(name) >= 0 ? [] : [name]).forEach((each) => {
-      $('<option>').val(each).text(each).appendTo(select)
-    })
-    select.val(name)
+    /** The types of the family of the PLC, and what was chosen before. */
+    function fill(chosen) {
+      const names = facts().types
+      select.empty().append($('<option>').val('').text(melsecJw.text('option.deviceType')))
+      names.concat(chosen === '' || names.indexOf(chosen) >= 0 ? [] : [chosen]).forEach((each) => {
+        $('<option>').val(each).text(each).appendTo(select)
+      })
+      select.val(chosen)
+    }
+    fill(name)
     const length = $('<input type="text" class="melsec-jw-length">')
       .attr('aria-label', melsecJw.text('label.length'))
       .appendTo(container)
@@ -96,14 +115,19 @@
     })
     length.on('input', changed)
     show()
-    return () => {
-      const digits = length.val().trim()
-      return select.val() + (hasLength() && digits !== '' ? `(${digits})` : '')
+    return {
+      value: () => {
+        const digits = length.val().trim()
+        return select.val() + (hasLength() && digits !== '' ? `(${digits})` : '')
+      },
+      refill: () => {
+        fill(select.val())
+      },
     }
   }
 
   /** Name, address and type of one row of an editable list, with the line below that says what it is. */
-  function row(container, item, changed) {
+  function row(container, item, changed, facts) {
     const line = $('<div class="melsec-jw-row">').appendTo(container)
     const name = $('<input type="text" class="melsec-jw-name">')
       .attr('aria-label', melsecJw.text('label.itemName'))
@@ -112,13 +136,22 @@
     const address = $('<input type="text" class="melsec-jw-address" spellcheck="false">')
       .attr('aria-label', melsecJw.text('label.itemAddress'))
       .appendTo(line)
-    address.attr('placeholder', melsecJw.text('placeholder.itemAddress')).val(item.address || '')
-    const type = typeFields(line, item.type, changed)
+    address.val(item.address || '')
+    const type = typeFields(line, item.type, changed, facts)
+    function showFamily() {
+      address.attr('placeholder', melsecJw.text(`placeholder.itemAddress.${facts().name}`))
+    }
+    showFamily()
     const hint = $('<div class="melsec-jw-hint" aria-live="polite">').appendTo(container)
     address.on('input', changed)
     return {
       line: line,
-      value: () => ({ name: name.val().trim(), address: address.val().trim(), type: type() }),
+      value: () => ({ name: name.val().trim(), address: address.val().trim(), type: type.value() }),
+      /** Another connection may have a PLC of another family. */
+      refit: () => {
+        type.refill()
+        showFamily()
+      },
       show: (ok, message, doubt) => {
         hint.toggleClass('melsec-jw-bad', !ok).toggleClass('melsec-jw-doubt', Boolean(doubt)).text(message)
         address.toggleClass('input-error', !ok).attr('aria-invalid', String(!ok))
@@ -166,9 +199,9 @@
       height: LEAST_HEIGHT,
       header: head(),
       addItem: (container, _index, item) => {
-        const made = row(container, item, check.soon)
+        const made = row(container, item, check.soon, () => melsecJw.factsOf(connection()))
         const extra = more ? more(container, item, made) : () => ({})
-        container.data('melsecJw', { show: made.show, value: () => $.extend(made.value(), extra()) })
+        container.data('melsecJw', { show: made.show, refit: made.refit, value: () => $.extend(made.value(), extra()) })
         check.soon()
       },
       removeItem: check.soon,
@@ -179,7 +212,12 @@
     // The list scrolls to each row that is added, a moment later: what was there before is shown from its start.
     setTimeout(() => element.parent().scrollTop(0), 0)
     return {
-      check: check.soon,
+      check: () => {
+        rowsOf().forEach((each) => {
+          each.refit()
+        })
+        check.soon()
+      },
       fit: (size) => {
         giveHeight(element, size)
       },

@@ -3,6 +3,7 @@
 ;(() => {
   const CATALOGUE = '@melsec-jw/plc/melsec-jw-connection:'
   const SPEECH = ['profile', 'frame', 'code', 'asciiXy', 'asciiZr', 'xyRadix', 'wRadix']
+  const JW_SPEECH = ['model', 'marker', 'lists', 'areas', 'ownAreas']
   const PAUSE = 250
 
   function text(key, values) {
@@ -11,7 +12,7 @@
 
   /** The palette finds a node by its label and its type. People look for these words, too. */
   const SEARCHED =
-    'MELSEC Mitsubishi 三菱 三菱電機 SLMP MC protocol MCプロトコル MC协议 MC協定 PLC iQ-R iQ-F FX3 FX3U FX5 FX5U FX5UJ QnA Q L QJ71E71'
+    'MELSEC Mitsubishi 三菱 三菱電機 SLMP MC protocol MCプロトコル MC协议 MC協定 PLC iQ-R iQ-F FX3 FX3U FX5 FX5U FX5UJ QnA Q L QJ71E71 Sharp シャープ 夏普 JW JW300 JW30H JW-255CM'
   function addSearchWords() {
     $('.red-ui-palette-node[data-palette-type^="melsec-jw-"]').each(function () {
       const label = $(this).attr('data-palette-label') || ''
@@ -23,9 +24,9 @@
   })
   $(document).on('focusin', '#red-ui-palette-search input', addSearchWords)
 
-  /** The manual's name of a command. @param command of the runtime: `{ name, title }` */
-  function commandTitle(command) {
-    const key = `command.${command.name}`
+  /** The manual's name of a command. @param command of the runtime: `{ name, title }` @param family of the PLC */
+  function commandTitle(command, family) {
+    const key = `${family === 'jw' ? 'jwCommand' : 'command'}.${command.name}`
     const title = text(key)
     return title.indexOf(key) >= 0 ? command.title : title
   }
@@ -37,16 +38,43 @@
     return /^[0-9]+$/.test(value) && Number(value) >= min && Number(value) <= max
   }
 
-  /** Whether a connection goes over a serial line: as chosen in its dialog while that is open, else as it is stored. */
-  function isOnLine(connection) {
+  /** A setting of a connection: as chosen in its dialog while that is open, else as it is stored. */
+  function chosenIn(connection, field) {
     const open = $('.melsec-jw-form').filter(function () {
       return $(this).data('connection') === connection.id && connection.id !== undefined
     })
-    return (open.length > 0 ? open.find('#node-config-input-way').val() : connection.way) === 'serial'
+    return open.length > 0 ? open.find(`#node-config-input-${field}`).val() : connection[field]
+  }
+
+  /** The family of the PLC of a connection, also of none. What is older knows MELSEC only. */
+  function familyOf(connection) {
+    return (connection && chosenIn(connection, 'family')) || 'melsec'
+  }
+
+  /** What the runtime knows of the family of a chosen connection. @param id of the connection */
+  function factsOf(id) {
+    const families = RED.settings.melsecJwConnectionFamilies || {}
+    const name = familyOf(RED.nodes.node(id))
+    return { types: [], lacks: [], name, ...families[name] }
+  }
+
+  /** Whether the PLC of a chosen connection has nothing for a type of nodes. */
+  function lacks(id, type) {
+    return factsOf(id).lacks.includes(type)
+  }
+
+  /** Whether a connection goes over a serial line; a Sharp JW never does. */
+  function isOnLine(connection) {
+    return familyOf(connection) === 'melsec' && chosenIn(connection, 'way') === 'serial'
+  }
+
+  /** Whether a connection to a Sharp JW has this header. */
+  function hasHeader(connection, header) {
+    return familyOf(connection) === 'jw' && chosenIn(connection, 'header') === header
   }
 
   function isUdp(connection) {
-    return !isOnLine(connection) && connection.transport === 'udp'
+    return familyOf(connection) === 'melsec' && !isOnLine(connection) && connection.transport === 'udp'
   }
 
   /** Whether a connection by this way can have the series. */
@@ -57,7 +85,7 @@
 
   /** Where the PLC is, where no name says it. */
   function placeOf(connection) {
-    if (connection.way !== 'serial') return connection.host ? `${connection.host}:${connection.port}` : ''
+    if (!isOnLine(connection)) return connection.host ? `${connection.host}:${connection.port}` : ''
     const line = RED.nodes.node(connection.line)
     const name = line ? line.name || line.path || (line.host ? `${line.host}:${line.port}` : '') : ''
     return name && text('line.place', { line: name, station: connection.lineStation || 0 })
@@ -65,7 +93,8 @@
 
   /** The frame a connection speaks: its own, or the usual one of its series. Without a series it is 3E. */
   function frameOf(connection) {
-    if (connection.way === 'serial') return RED.nodes.node(connection.line)?.frame || '3C'
+    if (isOnLine(connection)) return RED.nodes.node(connection.line)?.frame || '3C'
+    if (familyOf(connection) === 'jw') return ''
     const facts = RED.settings.melsecJwConnectionProfiles?.[connection.profile] || {}
     return connection.frame || facts.frame || '3E'
   }
@@ -77,11 +106,12 @@
   /** What of the chosen connection decides how addresses are written. */
   function speechOf(id) {
     const connection = RED.nodes.node(id)
-    const speech = {}
-    SPEECH.forEach((field) => {
+    const family = familyOf(connection)
+    const speech = family === 'jw' ? { family } : {}
+    ;(family === 'jw' ? JW_SPEECH : SPEECH).forEach((field) => {
       if (connection?.[field]) speech[field] = connection[field]
     })
-    if (connection?.way !== 'serial') return speech
+    if (!connection || !isOnLine(connection)) return speech
     const line = RED.nodes.node(connection.line) || {}
     const { frame: _frame, code: _code, ...common } = speech
     return { ...common, way: 'serial', lineFrame: line.frame, messageFormat: line.messageFormat }
@@ -119,6 +149,10 @@
   window.melsecJw = Object.assign(window.melsecJw || {}, {
     text,
     isNumber,
+    familyOf,
+    factsOf,
+    lacks,
+    hasHeader,
     isOnLine,
     isUdp,
     isSeries,

@@ -220,6 +220,8 @@ describe('lists', () => {
     ['docs/client.md', '`probe`', library.probeKinds],
     ['docs/cli.md', '`--probe <name>`', library.probeKinds],
     ['docs/nodes/connection.md', '`probe`', library.probeKinds],
+    ['docs/nodes/connection.md', '`jwProbe`', library.jwProbeKinds],
+    ['docs/nodes/connection.md', '`model`', library.jwModels],
   ])('%s: the row of %s names what it takes', (page, cell, names) => {
     const row = proseOf(page)
       .split('\n')
@@ -406,11 +408,12 @@ describe('nodes', () => {
   })
 
   test.each([
-    ['control', 'commands'],
-    ['file', 'actions'],
-  ])('what the %s node can do is in its page', (name, list) => {
-    const tree = [...nodesOf(parseTypeScript(readText(`nodes/melsec-jw-${name}.ts`)))]
-    const table = tree.find((node) => node.type === 'VariableDeclarator' && textOf(node.id) === list)
+    ['control', 'commands', 'control-commands', 'melsecControls'],
+    ['control', 'commands: jw', 'control-commands', 'jwControls'],
+    ['file', 'actions', 'melsec-jw-file', 'actions'],
+  ])('what the %s node can do is in its page: %s', (name, list, file, constant) => {
+    const tree = [...nodesOf(parseTypeScript(readText(`nodes/${file}.ts`)))]
+    const table = tree.find((node) => node.type === 'VariableDeclarator' && textOf(node.id) === constant)
     const keys = [...nodesOf(table?.init)].find(({ type }) => type === 'ObjectExpression')?.properties
     const named = (keys as SyntaxNode[]).map(({ key }) => textOf(key))
     expect(namesIn(`docs/nodes/${name}.md`, list).sort()).toEqual(named.sort())

@@ -3,6 +3,7 @@ import { describe, expect, test } from '@jest/globals'
 import { causesIn, messageWith, withoutCauses } from '../../nodes/causes'
 import type { Texts } from '../../nodes/texts'
 import * as failure from '../../src/client/connection/failure'
+import { explainJwSilence } from '../../src/client/jw/diagnosis'
 import { explainSilence, type LinkSettings } from '../../src/client/melsec/diagnosis'
 import { ethernetFrameNames, serialFrameNames } from '../../src/index'
 import { serialSettings } from '../../src/transport/serial'
@@ -49,8 +50,26 @@ function silences(): string[] {
     ),
     ...explainSilence({ ...settings[0], port: 5010 } as LinkSettings, { peer, answeredBefore: true }),
     ...explainSilence(serial[0] as LinkSettings, { peer, answeredBefore: true }),
+    ...jwSilences(),
     failure.NO_SELF_TEST,
   ]
+}
+
+function jwSilences(): readonly string[] {
+  const headers = ['none', 'zero40', { pda: 1, psa: 2, slot: 3, station: 4 }, Uint8Array.of(0)] as const
+  const places = [{ port: 5010 }, { port: 5010, localPort: 5002 }]
+  const peer = 'udp 10.0.0.1:5010'
+  const asked = { peer, answeredBefore: false, onlyAsked: 'Read write mode (E9H)' }
+  return headers.flatMap((header) =>
+    (['tcp', 'udp'] as const).flatMap((transport) =>
+      (['writeMode', 'read'] as const).flatMap((probe) =>
+        places.flatMap((place) => [
+          ...explainJwSilence({ transport, header, probe }, place, asked),
+          ...explainJwSilence({ transport, header, probe }, place, { peer, answeredBefore: true }),
+        ]),
+      ),
+    ),
+  )
 }
 
 const NAMES = ['causes', 'afterItAnswered', 'NETWORK_CHANGED', 'CHANGED']

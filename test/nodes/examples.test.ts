@@ -1,10 +1,17 @@
 /** Every example flow, deployed against the simulated tank, sends what test/matrix/expectations.json says. */
 import { afterAll, beforeAll, expect, test } from '@jest/globals'
-import { type LineSimulator, type PlcSimulator, startDemoPlant } from '../../src/entry/simulator'
-import { connectedTo, type Expectation, isOnLine, isOurs, onDemandOf, take } from '../support/examples'
+import {
+  type JwSimulator,
+  type LineSimulator,
+  type PlcSimulator,
+  startDemoBottling,
+  startDemoPlant,
+} from '../../src/entry/simulator'
+import { connectedTo, type Expectation, isOfJw, isOnLine, isOurs, onDemandOf, take } from '../support/examples'
 import { type FlowNode, type NodeRed, startNodeRed } from '../support/node-red'
 import { filesBelow, readText } from '../support/syntax'
-import { portOf, startPlc } from './flow'
+import { startPlc } from './flow'
+import { startJw } from './jw-flow'
 import { startLine } from './line-flow'
 
 const expectations = JSON.parse(readText('test/matrix/expectations.json')) as Record<string, Expectation>
@@ -14,6 +21,7 @@ const flows = files.map((file): [string, FlowNode[]] => [file, JSON.parse(readTe
 let red: NodeRed
 let plc: PlcSimulator
 let line: LineSimulator
+let jw: JwSimulator
 
 beforeAll(async () => {
   // What `--module` and `--label` of the expectations' `simulate` make.
@@ -29,6 +37,9 @@ beforeAll(async () => {
   // As `--stations 1,2 --message-format 4 --plant`.
   line = await startLine()
   for (const station of line.stations.values()) startDemoPlant(station)
+  // As `--family jw --plant`.
+  jw = await startJw()
+  startDemoBottling(jw)
   red = await startNodeRed()
 }, 60_000)
 
@@ -36,6 +47,7 @@ afterAll(async () => {
   await red.stop()
   await plc.close()
   await line.close()
+  await jw.close()
 })
 
 test('every example has expectations', () => {
@@ -54,9 +66,8 @@ test.each(flows)('%s works', async (file, flow) => {
   const expectation = expectations[file] ?? { steps: [] }
   const words = onDemandOf(expectation)
   red.forget()
-  await red.deploy(
-    connectedTo(flow, isOnLine(flow) ? (line.tcp?.port ?? 0) : Number(portOf(plc)), expectation.connection),
-  )
+  const { tcp } = isOnLine(flow) ? line : isOfJw(flow) ? jw : plc
+  await red.deploy(connectedTo(flow, tcp?.port ?? 0, expectation.connection))
   const sending = words && setInterval(() => plc.sendOnDemand(words), 100)
   try {
     for (const step of expectation.steps) await take(red, step)

@@ -1,6 +1,6 @@
 /** The request node in a real Node-RED, against a simulated PLC: any command, and buffer memory of modules. */
 import { afterAll, afterEach, beforeAll, describe, expect, test } from '@jest/globals'
-import { commands } from '../../src/entry/codec'
+import { commands, jwCommands } from '../../src/entry/codec'
 import type { PlcSimulator } from '../../src/entry/simulator'
 import { type Message, type NodeRed, startNodeRed } from '../support/node-red'
 import { readText } from '../support/syntax'
@@ -198,10 +198,12 @@ describe('buffer memory', () => {
 describe('in the editor', () => {
   test('the commands and modules are those of the library', async () => {
     const settings = (await red.http('GET', 'settings')).json() as {
-      melsecJwRequestCommands: { name: string; title: string; example: unknown }[]
+      melsecJwRequestCommands: Record<'melsec' | 'jw', { name: string }[]>
       melsecJwRequestModules: { model: string; known: boolean }[]
     }
-    expect(settings.melsecJwRequestCommands.map(({ name }) => name)).toEqual(Object.keys(commands))
+    const names = (family: 'melsec' | 'jw') => settings.melsecJwRequestCommands[family].map(({ name }) => name)
+    expect(names('melsec')).toEqual(Object.keys(commands))
+    expect(names('jw')).toEqual(Object.keys(jwCommands))
     expect(settings.melsecJwRequestModules).toContainEqual({ model: 'Q62DA', known: true })
     expect(settings.melsecJwRequestModules).toContainEqual({ model: 'QD62', known: false })
   })
@@ -210,7 +212,7 @@ describe('in the editor', () => {
     const catalogue = JSON.parse(readText(`nodes/locales/${language}/melsec-jw-request.json`)) as {
       effect: Record<string, string>
     }
-    const effects = new Set(Object.values(commands).map(({ effect }) => effect))
+    const effects = new Set([...Object.values(commands), ...Object.values(jwCommands)].map(({ effect }) => effect))
     expect(Object.keys(catalogue.effect).sort()).toEqual([...effects].sort())
   })
 

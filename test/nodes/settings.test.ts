@@ -53,8 +53,8 @@ describe('migrations', () => {
   })
 
   test.each([
-    // With the way to the PLC.
-    ['connection', 2],
+    // With the family of the PLC.
+    ['connection', 3],
     ['line', 1],
     ['read', 1],
     ['write', 1],
@@ -63,8 +63,8 @@ describe('migrations', () => {
   ])('%s stores version %i, which it reads', (name, version) => {
     const [, stored] = /version: \{ value: (\d+) \}/.exec(readText(`nodes/melsec-jw-${name}.html`)) ?? []
     expect(Number(stored)).toBe(version)
-    const [, migration] = /\{ version: (\d+), up:/.exec(readText(`nodes/melsec-jw-${name}.ts`)) ?? []
-    expect(Number(migration ?? currentVersion([]))).toBe(version)
+    const found = [...readText(`nodes/melsec-jw-${name}.ts`).matchAll(/\{ version: (\d+), up:/g)]
+    expect(Number(found.at(-1)?.[1] ?? currentVersion([]))).toBe(version)
   })
 })
 
@@ -139,9 +139,12 @@ describe('settings of a connection', () => {
     expect(() => read({ ...stored, way: 'ethernet', port: '1' })).toThrow('error.onlyOnLine')
   })
 
-  test('of a flow that knew Ethernet only are those of Ethernet', () => {
-    const up = /const migrations[^\n]+up: (.+) \}\]/.exec(readText('nodes/melsec-jw-connection.ts'))?.[1]
-    expect(up).toBe("(settings) => ({ way: 'ethernet', ...settings })")
+  test.each([
+    ['Ethernet', 'way', 'ethernet'],
+    ['MELSEC', 'family', 'melsec'],
+  ])('of a flow that knew %s only are those of it', (_what, field, only) => {
+    const ups = [...readText('nodes/melsec-jw-connection.ts').matchAll(/\{ version: \d+, up: (.+) \},?\n/g)]
+    expect(ups.map(([, up]) => up)).toContain(`(settings) => ({ ${field}: '${only}', ...settings })`)
   })
 
   test('numbers may be numbers or text, and what is empty is left to the client', () => {

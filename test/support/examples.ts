@@ -65,6 +65,11 @@ export function connectedTo(flow: readonly FlowNode[], port: number, settings: E
   })
 }
 
+/** Whether a simulated Sharp JW is needed. */
+export function isOfJw(flow: readonly FlowNode[]): boolean {
+  return flow.some(({ type, family }) => type === 'melsec-jw-connection' && family === 'jw')
+}
+
 /** Whether a simulated serial line is needed instead of a PLC. */
 export function isOnLine(flow: readonly FlowNode[]): boolean {
   return flow.some(({ type }) => type === 'melsec-jw-line')
