@@ -83,6 +83,10 @@ class SerialTransport implements Transport {
   #sent = false
   /** With RTS while sending: what is being sent, and what follows. */
   readonly #outgoing: Uint8Array[] = []
+  /** The system is opening it. */
+  #isTrying = false
+  /** Told when a port that was given up meanwhile is closed, or could not be opened. */
+  #whenTried = () => {}
 
   constructor(settings: SerialSettings) {
     this.#settings = settings
@@ -122,8 +126,11 @@ class SerialTransport implements Transport {
     })
     port.on('error', (error) => this.#finish(this.#lost(error)))
     port.on('close', (error: unknown) => this.#finish(this.#lost(error)))
+    this.#isTrying = true
     port.open((error) => {
-      if (error !== null) this.#finish(cannotOpen(this.description, error))
+      this.#isTrying = false
+      if (this.#state !== 'opening') this.#closeAgain(port)
+      else if (error !== null) this.#finish(cannotOpen(this.description, error))
       else if (rts === 'on') this.#opened()
       else port.set({ rts: false }, (failed) => (failed ? this.#finish(this.#lost(failed)) : this.#opened()))
     })
@@ -174,11 +181,7 @@ class SerialTransport implements Transport {
   }
 
   #opened(): void {
-    // Given up meanwhile: what is open must be closed all the same.
-    if (this.#state !== 'opening') {
-      closed(this.#port)
-      return
-    }
+    if (this.#state !== 'opening') return
     this.#state = 'open'
     this.#handlers?.opened()
   }
@@ -193,7 +196,15 @@ class SerialTransport implements Transport {
   #end(): void {
     this.#state = 'done'
     this.#handlers = undefined
-    closed(this.#port)
+    const port = this.#port
+    if (port?.isOpen === true) taken(port, (done) => port.close(done))
+    else if (port !== undefined && this.#isTrying) taken(port, (done) => (this.#whenTried = done))
+  }
+
+  /** Given up while it was being opened: what is open must be closed all the same. */
+  #closeAgain(port: SerialPort): void {
+    if (port.isOpen) port.close(() => this.#whenTried())
+    else this.#whenTried()
   }
 
   #lost(cause: unknown): ConnectionError {
@@ -205,14 +216,12 @@ class SerialTransport implements Transport {
 /** Ports that are closing, by name: until the system is done with it, a port is taken. */
 const closing = new Map<string, Promise<void>>()
 
-/** What it says of being closed already means nothing. */
-function closed(port: SerialPort | undefined): void {
-  if (port?.isOpen !== true) return
-  const { path } = port
-  const done = new Promise<void>((resolve) => port.close(() => resolve())).then(() => {
-    if (closing.get(path) === done) closing.delete(path)
+/** Until `run` calls back, whatever it says then: of being closed already it means nothing. */
+function taken({ path }: SerialPort, run: (done: () => void) => void): void {
+  const over = new Promise<void>((resolve) => run(() => resolve())).then(() => {
+    if (closing.get(path) === over) closing.delete(path)
   })
-  closing.set(path, done)
+  closing.set(path, over)
 }
 
 function cannotOpen(description: string, cause: Error): ConnectionError {
