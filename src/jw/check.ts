@@ -18,11 +18,26 @@ const NAMES: Readonly<Record<JwModel, string>> = { jw300: 'a JW300', jw30h: 'JW2
  */
 export function checkSendable(command: Sendable, message: Message, model: JwModel): void {
   if (command.models?.includes(model) === false) refuse(`${titleOf(command)} does not exist on ${NAMES[model]}`)
-  const extended = Object.keys(message).find((name) => isAddress(message[name]) && message[name].extended === true)
-  if (model !== 'jw300' && extended !== undefined) {
-    refuse(`${extended}: ${NAMES[model]} do not know extended addresses`, extended)
-  }
+  if (model !== 'jw300') checkAddresses(message, model)
   if (command.extent !== undefined) checkExtent(command.extent, message)
+}
+
+/** Segments of the program (JW-20FL5 manual, 9-34: COM 04H). On a JW300 they are file registers. */
+const PROGRAM: readonly number[] = [0x08, 0x09]
+
+/** Why a file holds no data in a model; `undefined`: it may. */
+export function noDataIn(file: number, model: JwModel): string | undefined {
+  if (model === 'jw300' || !PROGRAM.includes(file)) return undefined
+  return `file ${hex(file, 2)}H is the program memory of ${NAMES[model]}, and no data`
+}
+
+function checkAddresses(message: Message, model: JwModel): void {
+  for (const [name, value] of Object.entries(message)) {
+    if (!isAddress(value)) continue
+    if (value.extended === true) refuse(`${name}: ${NAMES[model]} do not know extended addresses`, name)
+    const why = noDataIn(value.file, model)
+    if (why !== undefined) throw new RequestError('OUT_OF_RANGE', `${name}: ${why}`, name)
+  }
 }
 
 function titleOf({ title, code }: Declaration): string {

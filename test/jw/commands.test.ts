@@ -52,6 +52,14 @@ describe('JW300', () => {
     expect(() => old.exchange(jwCommands.loopback, { data: Buffer.of(1) })).toThrow('does not exist on JW20H and JW30H')
     const head = { file: 1, address: 0, extended: true } as const
     expect(() => old.exchange(jwCommands.readDataMemory, { head, length: 1 })).toThrow('do not know extended addresses')
+    const data = Buffer.of(1)
+    for (const file of [0x08, 0x09]) {
+      const program = { file, address: 0 }
+      expect(() => old.exchange(jwCommands.writeDataMemory, { head: program, data })).toThrow('program memory')
+      expect(() => old.exchange(jwCommands.setRelay, { address: program, bit: 0, value: 1 })).toThrow('program memory')
+      expect(() => jwProtocol().exchange(jwCommands.writeDataMemory, { head: program, data })).not.toThrow()
+    }
+    expect(() => old.exchange(jwCommands.writeDataMemory, { head: { file: 7, address: 0 }, data })).not.toThrow()
   })
 })
 

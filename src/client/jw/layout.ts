@@ -1,6 +1,7 @@
 // Where the values of an item lie: the one description of it that reading and writing share.
 import { RequestError } from '../../errors'
 import { FILE_REGISTERS, type JwAddress, type JwExtendedAddress, PAGE, pageOfRegisters } from '../../jw/address'
+import { noDataIn } from '../../jw/check'
 import type { JwModel } from '../../jw/commands/command'
 import { jwAddressOf } from '../../jw/operand/place'
 import { bytesOf, formatByteType } from '../../value/byte-type'
@@ -52,7 +53,7 @@ export class JwSpaces {
     this.#model = model
   }
 
-  /** @throws RequestError UNSUPPORTED where the model has no such bytes */
+  /** @throws RequestError UNSUPPORTED or OUT_OF_RANGE where the model has no such bytes */
   layoutOf({ text, place, type, count = 1 }: ParsedJwItem): JwLayout {
     if (place.in === 'timer') {
       return { space: this.#space('timer'), start: place.number * CELL, width: CELL, count }
@@ -61,6 +62,8 @@ export class JwSpaces {
     const bit = place.bit ?? 0
     if (place.in === 'system') return { space: this.#space('system'), start: place.address * CELL + bit, width, count }
     const { file, address } = place
+    const noData = noDataIn(file, this.#model)
+    if (noData !== undefined) throw new RequestError('OUT_OF_RANGE', `${JSON.stringify(text)}: ${noData}.`, text)
     const last = address + Math.ceil((bit + width * count) / CELL) - 1
     if (file !== FILE_REGISTERS || last < PAGE) {
       return { space: this.#space('file', file), start: address * CELL + bit, width, count }

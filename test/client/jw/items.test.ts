@@ -124,6 +124,18 @@ describe('reading', () => {
     expect(plc.asked).toEqual(['readDataMemory', 'readDataMemory'])
   })
 
+  test('the program memory of a JW30H is not taken for data, nor the others with it', async () => {
+    start({ model: 'jw30h' })
+    expect((await client.read(['F8:0', '09000', 'F9:7.1'])).map(brief)).toEqual(['OUT_OF_RANGE', 0, 'OUT_OF_RANGE'])
+    const written = await client.writeEach([
+      { item: 'F8:0', value: 1 },
+      { item: 'F9:7.1', value: true },
+      { item: '09000', value: 1 },
+    ])
+    expect(written.map(({ ok }) => ok)).toEqual([false, false, true])
+    expect(plc.asked).toEqual(['readDataMemory', 'writeDataMemory'])
+  })
+
   test('one item that does not exist does not take the others with it, and is asked for apart later on', async () => {
     start()
     const items = ['09000', 'F9:0', '004033', 'F2:0', 'F3:17'] as const
