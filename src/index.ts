@@ -128,8 +128,22 @@ export type { DeviceExplanation } from './client/plan/explain'
 export type { Monitor } from './client/plan/monitor'
 export type { ReadPlan, WritePlan } from './client/plan/plans'
 export type { PlcClient, PlcEvents, WatchedIn } from './client/plan/plc-client'
+export type {
+  PlcTags,
+  TagInputIn,
+  TagInputsIn,
+  TagName,
+  TagResultsIn,
+  TagsOptions,
+  TagValueIn,
+  TagValuesIn,
+  TagWatchOptions,
+  WatchedTagsIn,
+  WritableTagName,
+} from './client/plan/plc-tags'
 export type { PlanDescription, RequestDescription } from './client/plan/request'
 export type { WriteCallOptions, WriteOptions } from './client/plan/write'
+export { type ExplainedItem, tagReaderOf } from './client/tags/tag-reader'
 export type { WatchDeadband } from './client/watch/deadband'
 export type { Watch, WatchedName, WatchGap, WatchOptions, WatchStatistics, WatchUpdate } from './client/watch/watch'
 export type { WatchedValue } from './client/watch/watched-value'

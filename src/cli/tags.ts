@@ -1,11 +1,11 @@
 import { readFile, rename, rm, writeFile } from 'node:fs/promises'
 import { extname } from 'node:path'
 import { type Command, Option } from 'commander'
-import { parseByteType } from '../entry/address'
 import {
   createJwClient,
   createMelsecClient,
   diffTags,
+  type ExplainedItem,
   exportTags,
   importTags,
   mergeTags,
@@ -15,12 +15,12 @@ import {
   type Tag,
   type TagCheckOptions,
   type TagDifference,
-  type TagFacts,
   type TagImport,
   type TagItem,
   type TagMergeOptions,
   tagFileEncodings,
   tagFileKinds,
+  tagReaderOf,
 } from '../index'
 import { type MakeCommand, newCommand, perform } from './command'
 import { profileOption, wRadixOption, xyRadixOption } from './connection-options'
@@ -277,7 +277,7 @@ function checksOf(options: TagsOptions): TagCheckOptions {
 /** What a PLC of the family knows of addresses; it is never connected. */
 function readerOf({ family, profile, xyRadix, wRadix }: TagsOptions): ReadTagItem {
   const nowhere = { host: 'none', port: 1 }
-  const client: { explain(item: TagItem): Explained } =
+  const client: { explain(item: TagItem): ExplainedItem } =
     family === 'jw'
       ? createJwClient(nowhere)
       : createMelsecClient({
@@ -286,26 +286,7 @@ function readerOf({ family, profile, xyRadix, wRadix }: TagsOptions): ReadTagIte
           ...(xyRadix === undefined ? {} : { xyRadix }),
           ...(wRadix === undefined ? {} : { wRadix }),
         })
-  return (item) => factsOf(client.explain(item))
-}
-
-/** What both clients say of an item. */
-interface Explained {
-  readonly text: string
-  readonly label?: string
-  readonly type?: string
-  readonly count?: number
-}
-
-function factsOf({ text, label, type, count }: Explained): TagFacts {
-  const facts = {
-    ...(type === undefined ? {} : { type: parseByteType(type) }),
-    ...(count === undefined ? {} : { count }),
-  }
-  if (label !== undefined) return facts
-  const one = count === undefined ? text : text.replace(/\[\d+\]$/, '')
-  const behind = `:${type}`
-  return { ...facts, device: one.endsWith(behind) ? one.slice(0, -behind.length) : one }
+  return tagReaderOf(client)
 }
 
 function tableKindOf(file: string): 'json' | 'csv' {

@@ -62,6 +62,8 @@ export type ReadResult<V = ReadValue> =
       readonly timestamp: number
       /** The array was read by more than one request: its values may be of different moments. */
       readonly torn?: true
+      /** Of a tag: it was beyond the limits of its scaling, and the value is the limit. */
+      readonly clamped?: true
       /** Of a label: its data type, as the PLC says it, e.g. `REAL`. */
       readonly type?: string
     }

@@ -7,6 +7,7 @@ import type { JwOperandOptions } from '../../jw/operand/map'
 import { jwProtocol } from '../../jw/protocol'
 import { jwExplainer } from '../../jw/trace-explainer'
 import type { Exchange } from '../../link/link'
+import type { TagDefinitions, TagTable } from '../../tags/table/table'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { Connection, type ConnectionState } from '../connection/connection'
 import { Deadline } from '../connection/deadline'
@@ -30,8 +31,11 @@ import {
 } from '../plan/item-calls'
 import type { ReadPlan, WritePlan } from '../plan/plans'
 import type { WatchedIn } from '../plan/plc-client'
+import type { PlcTags, TagsOptions } from '../plan/plc-tags'
 import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
+import { ItemTags } from '../tags/item-tags'
+import { tagReaderOf } from '../tags/tag-reader'
 import type { Watch, WatchOptions } from '../watch/watch'
 import { Watching } from '../watch/watching'
 import { type JwBuffers, jwBuffers } from './buffers'
@@ -190,6 +194,11 @@ export class JwPlcClient implements JwClient {
   watch<const L extends Items>(items: L, options: WatchOptions<Watched<L>>): Watch<Watched<L>>
   watch(items: Items, options: object): unknown {
     return this.#watching.open(items, options)
+  }
+
+  tags<const D extends TagDefinitions>(table: TagTable<D>, options?: TagsOptions): PlcTags<JwItemTypes, D>
+  tags(table: TagTable, options?: TagsOptions): unknown {
+    return new ItemTags({ source: this.#items, watching: this.#watching, readItem: tagReaderOf(this) }, table, options)
   }
 
   explain(item: Item): JwItemExplanation {

@@ -10,6 +10,7 @@ import { extendUnitOf, type ModulePlace } from '../../melsec/extend-unit'
 import type { ProfileInfo } from '../../melsec/profiles/profile'
 import type { ExchangeOptions } from '../../melsec/protocol'
 import { isPasswordRefusal, isPortLocked } from '../../melsec/remote-password'
+import type { TagDefinitions, TagTable } from '../../tags/table/table'
 import { type CallOptions, callOptionsOf } from '../connection/call'
 import { Connection, type ConnectionState } from '../connection/connection'
 import { Deadline } from '../connection/deadline'
@@ -47,8 +48,11 @@ import {
 import { type Monitor, namedMonitor, Registration } from '../plan/monitor'
 import type { ReadPlan, WritePlan } from '../plan/plans'
 import type { WatchedIn } from '../plan/plc-client'
+import type { PlcTags, TagsOptions } from '../plan/plc-tags'
 import type { WriteCallOptions, WriteOptions, WriteResult } from '../plan/write'
 import { type OpenCall, WriteTurns } from '../plan/write-turns'
+import { ItemTags } from '../tags/item-tags'
+import { tagReaderOf } from '../tags/tag-reader'
 import type { Watch, WatchOptions } from '../watch/watch'
 import { Watching } from '../watch/watching'
 import { type BufferMemory, memoryOf, moduleOf } from './buffer-memory'
@@ -341,6 +345,11 @@ export class MelsecPlcClient implements MelsecClient {
   watch<const L extends Items>(items: L, options: WatchOptions<Watched<L>>): Watch<Watched<L>>
   watch(items: Items, options: object): unknown {
     return this.#watching.open(items, options)
+  }
+
+  tags<const D extends TagDefinitions>(table: TagTable<D>, options?: TagsOptions): PlcTags<MelsecItems, D>
+  tags(table: TagTable, options?: TagsOptions): unknown {
+    return new ItemTags({ source: this.#items, watching: this.#watching, readItem: tagReaderOf(this) }, table, options)
   }
 
   async request<C extends Command>(

@@ -1,4 +1,6 @@
 // What every client of a PLC can do, whatever its family: what tags, watching and screens are built on.
+
+import type { TagDefinitions, TagTable } from '../../tags/table/table'
 import type { CallOptions } from '../connection/call'
 import type { ConnectionState } from '../connection/connection-options'
 import type { Statistics } from '../connection/statistics'
@@ -17,6 +19,7 @@ import type { Item } from '../item/parts'
 import type { Watch, WatchOptions } from '../watch/watch'
 import type { WatchedValue } from '../watch/watched-value'
 import type { ReadPlan, WritePlan } from './plans'
+import type { PlcTags, TagsOptions } from './plc-tags'
 import type { WriteCallOptions, WriteOptions, WriteResult } from './write'
 
 /** Watched values, in their order or by their names. */
@@ -88,6 +91,13 @@ export interface PlcClient<Events extends PlcEvents = PlcEvents, T extends ItemT
    * @example for await (const { values } of plc.watch({ level: 'D100:REAL' }, { every: 100 })) console.log(values.level.value)
    */
   watch<const L extends Items>(items: L, options: WatchOptions<WatchedIn<T, L>>): Watch<WatchedIn<T, L>>
+
+  /**
+   * Tags of a table by name, in the units people use. Nothing is sent for it.
+   * @throws RequestError BAD_OPTION with one message for each row that is wrong for this PLC
+   * @example await plc.tags(defineTags({ level: 'D100:REAL' })).read('level')
+   */
+  tags<const D extends TagDefinitions>(table: TagTable<D>, options?: TagsOptions): PlcTags<T, D>
 
   /** Writes many items as `writeValues`. @example await plc.write({ 'D200:REAL': 71.5, M10: true }) */
   write<const L extends readonly Item[], A extends string>(

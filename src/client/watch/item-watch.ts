@@ -120,7 +120,7 @@ export class ItemWatch implements Watch<Values> {
     if (wasRead) this.#wasRead(now)
     else this.unread(1)
     const named = this.#named(results)
-    const changed = this.#placesOfResults(named, (item, result) => item.state.take(result))
+    const changed = this.#placesOfResults(named, (item, result) => item.take(result))
     const judged = this.#placesOfResults(named, (item, result) => item.judge(result, now))
     const isFirst = this.#counts.scans === 1
     if (changed.length > 0 || judged.length > 0 || isFirst || this.#settings.tellsScans) this.#tell(changed)

@@ -9,22 +9,37 @@ import { WatchedState } from './watched-value'
 /** First pause of an item that fails, ms. */
 const FIRST_PAUSE = 1000
 
+/** How an item is looked at. */
+export interface ItemView {
+  /** How far its value may move before it counts as changed. */
+  readonly reach: number
+  /** What people see of what was read; missing: the same. */
+  readonly seen?: ((result: ReadResult) => ReadResult) | undefined
+}
+
 export class WatchedItem {
   readonly state: WatchedState
   readonly #demotion: Demotion
+  readonly #seen: ItemView['seen']
 
   constructor(
     readonly item: Item,
-    reach: number,
+    { reach, seen }: ItemView,
     { demoteAfter, probeEvery }: { readonly demoteAfter: number; readonly probeEvery: number },
   ) {
     this.state = new WatchedState(reach)
+    this.#seen = seen
     this.#demotion = new Demotion({ after: demoteAfter, first: FIRST_PAUSE, longest: probeEvery })
   }
 
   /** It is tried rarely, because the PLC refuses it again and again. */
   get isDemoted(): boolean {
     return this.#demotion.isDemoted
+  }
+
+  /** @returns whether value or quality have changed */
+  take(result: ReadResult): boolean {
+    return this.state.take(this.#seen?.(result) ?? result)
   }
 
   mayBeTried(now: number): boolean {

@@ -4,8 +4,8 @@ import { hasChanged } from '../../tags/table/deadband'
 import type { ReadResult, ReadValue } from '../item/item-value'
 
 /**
- * A watched value. `good`: the last scan has read it. `uncertain`: the array was read by several requests, or no scan has
- * ended for longer than `staleAfter`. `bad`: the last scan could not read it; the value is the last that was known.
+ * A watched value. `good`: the last scan has read it. `uncertain`: the array was read by several requests, it is a tag whose
+ * scaling has clamped it, or no scan has ended for longer than `staleAfter`. `bad`: the last scan could not read it; the value is the last that was known.
  */
 export type WatchedValue<V = ReadValue> =
   | {
@@ -103,9 +103,15 @@ export class WatchedState {
   }
 }
 
-function read({ value, timestamp, torn }: ReadResult & { readonly ok: true }, changedBefore?: number): WatchedValue {
+const CLAMPED = 'It is beyond the limits of its scaling: the value is the limit.'
+
+function read(
+  { value, timestamp, torn, clamped }: ReadResult & { readonly ok: true },
+  changedBefore?: number,
+): WatchedValue {
   const known = { value, timestamp, changedAt: changedBefore ?? timestamp }
   if (torn === true) return { quality: 'uncertain', ...known, reason: TORN, stale: false }
+  if (clamped === true) return { quality: 'uncertain', ...known, reason: CLAMPED, stale: false }
   return { quality: 'good', ...known, stale: false }
 }
 

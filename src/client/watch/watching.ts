@@ -13,7 +13,7 @@ import { ItemWatch } from './item-watch'
 import { settleWatch } from './options'
 import { type PreparedRead, type Reader, ScanPlans } from './scan-plans'
 import { Schedule } from './schedule'
-import { WatchedItem } from './watched-item'
+import { type ItemView, WatchedItem } from './watched-item'
 
 /** Of a PLC: scans in a row without an answer after which it is tried rarely, and the pauses, ms. */
 const SILENT_PLC = { after: 3, first: 1000, longest: 30_000 }
@@ -50,13 +50,17 @@ export class Watching {
     this.#plans = new ScanPlans(reader)
   }
 
-  /** @throws RequestError BAD_OPTION or BAD_ADDRESS, ClosedError when the client is closed */
-  open(items: Items, options: object): ItemWatch {
+  /**
+   * @param viewOf how the items of these names are looked at; missing: as `options` say
+   * @throws RequestError BAD_OPTION or BAD_ADDRESS, ClosedError when the client is closed
+   */
+  open(items: Items, options: object, viewOf?: (name: string | number) => ItemView): ItemWatch {
     if (this.#closed) throw closedBeforeSending('Watching')
     const { names, list } = itemsOf(items)
     const settings = settleWatch(options, names ?? list.map((_item, place) => place))
     const watched = list.map((item, place) => {
-      return new WatchedItem(item, settings.reachOf(names?.[place] ?? place), settings)
+      const name = names?.[place] ?? place
+      return new WatchedItem(item, viewOf?.(name) ?? { reach: settings.reachOf(name) }, settings)
     })
     const watch = new ItemWatch(watched, names, settings, { clock: this.#clock, onClose: () => this.#ended(watch) })
     this.#begin(watch, settings.signal)

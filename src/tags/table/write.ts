@@ -26,18 +26,19 @@ export interface RawWrite {
  * A scaled value becomes the nearest that the type can hold, halves away from zero; `value` says which one that is. `min` and `max` hold for
  * what is given and for what the PLC would hold then.
  *
- * @param type of one value in the PLC, as the address or the PLC says it
+ * @param type of one value in the PLC, as the address says it; undefined of a label of which only the PLC knows it
  * @param count of an array; undefined for a single value
  * @throws RequestError NOT_PERMITTED for a tag that is only read; OUT_OF_RANGE beyond `min`, `max`, the limits of a clamped scaling or
  *   what the type can hold; BAD_VALUE for what is no value of it. `field` is the name of the tag.
  * @example rawValueOf({ name: 'level', address: 'D100', access: 'readWrite', scaling: { kind: 'linear', raw: [0, 4000], engineering: [0, 10] } },
  *   { name: 'INT' }, undefined, 3.085)   // { raw: 1234, value: 3.085 }
  */
-export function rawValueOf(tag: Tag, type: ByteType, count: number | undefined, value: TagValue): RawWrite {
+export function rawValueOf(tag: Tag, type: ByteType | undefined, count: number | undefined, value: TagValue): RawWrite {
   const fail: Fail = (code, message) => {
     throw new RequestError(code, `${tag.name} (${tag.address}): ${message}`, tag.name)
   }
   if (tag.access !== 'readWrite') fail('NOT_PERMITTED', "it is only read: set access to 'readWrite' to write it.")
+  if (type === undefined) return untyped(tag, value, fail)
   if (!isList(value)) {
     if (count !== undefined) fail('BAD_VALUE', `it takes an array of ${count} values, not ${show(value)}.`)
     return oneRaw(tag, type, value, fail)
@@ -48,6 +49,16 @@ export function rawValueOf(tag: Tag, type: ByteType, count: number | undefined, 
     oneRaw(tag, type, one, (code, message) => fail(code, `element ${at}: ${message}`)),
   )
   return { raw: each.map(({ raw }) => raw), value: each.map((one) => one.value) }
+}
+
+function isLimited({ min, max, scaling }: Tag): boolean {
+  return min !== undefined || max !== undefined || scaling !== undefined
+}
+
+/** What the PLC says of a label comes too late for limits. */
+function untyped(tag: Tag, value: TagValue, fail: Fail): RawWrite {
+  if (isLimited(tag)) fail('BAD_TYPE', 'give its type: with limits or a scaling it must be known before it is written.')
+  return { raw: value, value }
 }
 
 type Fail = (code: RequestErrorCode, message: string) => never
@@ -62,9 +73,8 @@ interface OneRaw {
 }
 
 function oneRaw(tag: Tag, type: ByteType, value: PlcValue, fail: Fail): OneRaw {
-  const isLimited = tag.min !== undefined || tag.max !== undefined || tag.scaling !== undefined
   // Bits, texts and numbers without limits: what the type takes is for the value layer to say.
-  if (!isLimited) return { raw: value, value }
+  if (!isLimited(tag)) return { raw: value, value }
   const number = numberIn(value, fail)
   checkLimits(tag, number, fail)
   const { scaling } = tag
