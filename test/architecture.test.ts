@@ -259,12 +259,7 @@ const FOR_TESTS: readonly string[] = [
   'serialTransport',
   'lineTime',
   'computerLinkFrame',
-  'serialInterfaceProblems',
-  'unitErrors',
-  'unitNumbers',
   'checkCodeOf',
-  'fromClassicAddress',
-  'toClassicAddress',
   'advanceJw',
 ]
 

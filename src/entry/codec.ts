@@ -35,6 +35,7 @@ export {
   type ParametersInDataMemory,
 } from '../jw/parameters/fl-net'
 export type { ParameterAddress, StoredAddress } from '../jw/parameters/memory-address'
+export { fromClassicAddress, toClassicAddress } from '../jw/parameters/parameter-area'
 export type {
   ParameterMap,
   ParameterProblem,
@@ -42,6 +43,9 @@ export type {
   ReadParameters,
   WrittenParameters,
 } from '../jw/parameters/parameter-map'
+export { serialInterfaceProblems } from '../jw/parameters/serial-interface-unit'
+export { type UnitError, unitErrors } from '../jw/parameters/unit-errors'
+export { type UnitNumbers, unitNumbers } from '../jw/parameters/unit-number'
 export {
   type ACompatibleCommandName,
   type ACompatibleCommands,

@@ -1,13 +1,16 @@
 // Errors that option units report about their parameters, by the codes the manual prints (JW300 option unit manual, "JW-21CM", "JW-22SU").
 
-type Language = 'en-US' | 'ja' | 'zh-CN' | 'zh-TW'
+import type { Language } from '../../basics/texts'
 
 /** An error of an option unit about its parameters. */
 export interface UnitError {
+  /** Which report it, and when. */
   readonly units: string
   /** As the unit shows it. Other units use the same number for something else. */
   readonly code: number
+  /** What it says. */
   readonly meaning: Readonly<Record<Language, string>>
+  /** What to do. */
   readonly remedy: Readonly<Record<Language, string>>
 }
 

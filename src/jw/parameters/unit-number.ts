@@ -2,9 +2,15 @@
 
 /** Numbers that a unit may have. */
 export interface UnitNumbers {
+  /** Names of the units. */
   readonly units: string
   /** Last number in a JW20H or JW30H, and in a JW300; the first is 0. */
-  readonly last: { readonly jw20h30h: number; readonly jw300: number }
+  readonly last: {
+    /** In a JW20H or JW30H. */
+    readonly jw20h30h: number
+    /** In a JW300. */
+    readonly jw300: number
+  }
 }
 
 /** Which numbers the unit number switch may have, as the manual lists them. */
