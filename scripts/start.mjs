@@ -86,11 +86,13 @@ async function check(what, url) {
 }
 
 /** Asks the PLC what it is, as the flow's connection does. */
-async function identify({ title, profile, frame }, port) {
-  const { createMelsecClient } = await import('../dist/src/index.js')
-  const client = createMelsecClient({ host: '127.0.0.1', port, profile, frame, timeout: ANSWER_TIME })
+async function identify({ family, title, profile, frame }, port) {
+  const { createJwClient, createMelsecClient } = await import('../dist/src/index.js')
+  const reached = { host: '127.0.0.1', port, timeout: ANSWER_TIME }
+  const client = family === 'jw' ? createJwClient(reached) : createMelsecClient({ ...reached, profile, frame })
   try {
-    return (await client.identify()).model
+    // A Sharp JW does not tell its model, but what its program has room for.
+    return family === 'jw' ? `${(await client.info()).memorySize.kiloWords} K words` : (await client.identify()).model
   } catch (error) {
     throw new SetupError(`The simulated ${title} does not answer: ${error.message}`)
   } finally {
@@ -116,10 +118,10 @@ async function run() {
 }
 
 function announcement(red, ports, models) {
-  const simulated = plcs.map(({ id, title, simulator }, index) => {
+  const simulated = plcs.map(({ id, title, protocol }, index) => {
     const { port, udpPort } = ports[id]
     const where = port === udpPort ? `127.0.0.1:${port} (TCP and UDP)` : `127.0.0.1:${port} (TCP), ${udpPort} (UDP)`
-    return `  ${`${title}:`.padEnd(20)}${where}, SLMP ${simulator.frames.join(' and ')}, ${models[index]}`
+    return `  ${`${title}:`.padEnd(20)}${where}, ${protocol}, ${models[index]}`
   })
   return [
     '',

@@ -5,16 +5,15 @@ import { execFileSync } from 'node:child_process'
 import { readFileSync, writeFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import { isDeepStrictEqual } from 'node:util'
-import { demoPlantTags } from '../../dist/src/entry/simulator.js'
 import { flowPath } from '../flow-file.mjs'
 import { plcs } from '../plcs.mjs'
+import { connection } from './connection.mjs'
 import { dashboard, lookTab } from './dashboard.mjs'
-import { connection, plcTab } from './plc-tab.mjs'
+import { plcTab } from './plc-tab.mjs'
 
 /** The flow as Node-RED stores it. */
 function demoFlow() {
-  const tabs = plcs.flatMap((plc) => plcTab(plc, demoPlantTags[plc.profile]))
-  return [...tabs, ...lookTab(), ...plcs.map(connection), ...dashboard()]
+  return [...plcs.flatMap(plcTab), ...lookTab(), ...plcs.map(connection), ...dashboard()]
 }
 
 function write(flow) {

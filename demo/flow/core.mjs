@@ -1,11 +1,12 @@
 // Node-RED's own nodes with the settings they store.
 
-/** A Function node that calls one of functions.mjs. */
-export function functionNode(run, { wires, ...node }) {
+/** A Function node that calls one of functions.mjs. @param names of the values it is about, where it wants some */
+export function functionNode(run, { wires, names, ...node }) {
+  const listed = names === undefined ? '' : `, [${names.map((name) => `'${name}'`).join(', ')}]`
   return {
     ...node,
     type: 'function',
-    func: `${run.toString()}\n\nreturn ${run.name}(msg, context)\n`,
+    func: `${run.toString()}\n\nreturn ${run.name}(msg, context${listed})\n`,
     outputs: wires.length,
     timeout: 0,
     noerr: 0,

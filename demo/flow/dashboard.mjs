@@ -2,20 +2,21 @@
 import { readFileSync } from 'node:fs'
 import { plcs } from '../plcs.mjs'
 import { tab } from './canvas.mjs'
+import { plantOf } from './plants.mjs'
 import { style } from './widgets.mjs'
 
 export const ui = 'demo-ui'
 const theme = 'demo-theme'
 
-/** Groups of a page, in order: width in columns of twelve, height in rows. */
+/** Groups of a page, in order: width in columns of twelve, height in rows. What has no title gets it from the plant. */
 const groups = [
   { name: 'head', title: 'Connection', width: 12, height: 1, showTitle: false },
-  { name: 'tank', title: 'Level', width: 3, height: 7 },
-  { name: 'heat', title: 'Temperature', width: 3, height: 7 },
+  { name: 'left', width: 3, height: 7 },
+  { name: 'middle', width: 3, height: 7 },
   { name: 'trend', title: 'Trend', width: 6, height: 7 },
-  { name: 'states', title: 'Plant', width: 3, height: 6 },
-  { name: 'batch', title: 'Batch', width: 3, height: 6 },
-  { name: 'setpoints', title: 'Set-points', width: 3, height: 6 },
+  { name: 'states', width: 3, height: 6 },
+  { name: 'counts', width: 3, height: 6 },
+  { name: 'setpoints', width: 3, height: 6 },
   { name: 'operate', title: 'Operation', width: 3, height: 6 },
 ]
 
@@ -31,7 +32,7 @@ export function dashboard() {
     {
       id: ui,
       type: 'ui-base',
-      name: 'Mixing plant',
+      name: 'Demo plant',
       path: '/dashboard',
       appIcon: '',
       includeClientData: true,
@@ -81,10 +82,10 @@ function pageOf(plc, index) {
   const page = {
     id: pageId(plc),
     type: 'ui-page',
-    name: `Mixing tank ${index + 1}: ${plc.title}`,
+    name: `${plc.page}: ${plc.title}`,
     ui,
     path: `/${plc.id}`,
-    icon: index === 0 ? 'numeric-1-box' : 'numeric-2-box',
+    icon: `numeric-${index + 1}-box`,
     layout: 'grid',
     theme,
     breakpoints: [
@@ -97,7 +98,8 @@ function pageOf(plc, index) {
     visible: 'true',
     disabled: 'false',
   }
-  const frames = groups.map(({ name, title, width, height, showTitle = true }, order) => ({
+  const { process } = plantOf(plc)
+  const frames = groups.map(({ name, title = process.groups[name], width, height, showTitle = true }, order) => ({
     id: groupId(plc, name),
     type: 'ui-group',
     name: title,

@@ -2,7 +2,7 @@
 
 /**
  * Function node "State of the connection": everything the page's head shows, gathered from several messages.
- * First output: the head. Second: asks the CPU for its model after each new connection. Third: whether the page's inputs
+ * First output: the head. Second: asks the PLC what it is after each new connection. Third: whether the page's inputs
  * and buttons can be operated.
  */
 export function connectionState(msg, context) {
@@ -10,6 +10,8 @@ export function connectionState(msg, context) {
   const state = context.get('state') ?? begin
   const wasConnected = state.name === 'connected'
   const cpuStates = ['RUN', '', 'STOP', 'PAUSE']
+  // A Sharp JW tells on a question whether it runs; 'stoppedElsewhere': another unit has stopped it, too.
+  const runStates = { running: 'RUN', stopped: 'STOP', stoppedElsewhere: 'STOP' }
   if (msg.status !== undefined) {
     // Status of the read node: green, yellow and red say how the connection is.
     const { fill } = msg.status
@@ -19,15 +21,18 @@ export function connectionState(msg, context) {
     // Caught from the nodes that ask by themselves: why there are no values.
     state.reason = msg.error.cause?.message ?? msg.error.message
   } else if (msg.payload?.command === 'identify') {
-    state.model = msg.payload.model
+    const { model, memorySize } = msg.payload
+    state.model = model ?? (memorySize?.kiloWords === undefined ? '' : `${memorySize.kiloWords} K words`)
   } else if (msg.payload?.command === 'selfTest') {
     state.roundTrip = msg.payload.roundTrip
+  } else if (msg.payload?.command === 'runState') {
+    state.cpu = runStates[msg.payload.state] ?? ''
   } else {
-    // Values have been read. SD203 says in its lower four bits what the CPU does.
+    // Values have been read. SD203 of a MELSEC PLC says in its lower four bits what the CPU does.
     state.name = 'connected'
     state.reason = ''
     state.hasValues = true
-    state.cpu = cpuStates[msg.payload.cpuState & 15] ?? ''
+    if ('cpuState' in msg.payload) state.cpu = cpuStates[msg.payload.cpuState & 15] ?? ''
   }
   if (state.name !== 'connected') Object.assign(state, { roundTrip: null, cpu: '' })
   context.set('state', state)
@@ -44,18 +49,16 @@ export function connectionState(msg, context) {
  * Function node "Trend": one point for each chart, which keeps every message for its history. What could not be read is a
  * point without a value: the line has a gap there.
  */
-export function trend(msg) {
-  const { level, temperature } = msg.error === undefined ? msg.payload : {}
-  const point = (value) => ({ payload: { y: Number.isFinite(value) ? value : null } })
-  return [point(level), point(temperature)]
+export function trend(msg, _context, names) {
+  const values = msg.error === undefined ? msg.payload : {}
+  return names.map((name) => ({ payload: { y: Number.isFinite(values[name]) ? values[name] : null } }))
 }
 
 /**
  * Function node "Set-points that changed": what the PLC holds goes to the inputs when it is news to them, so that a
  * value somebody is about to type is not overwritten every second.
  */
-export function setPointsThatChanged(msg, context) {
-  const names = ['levelSetPoint', 'temperatureSetPoint', 'mixingTime', 'recipe']
+export function setPointsThatChanged(msg, context, names) {
   const shown = { ...context.get('shown') }
   if (msg.payload?.written !== undefined) {
     // A write has succeeded or failed: its inputs, and no other that somebody may be typing into, show the PLC's value.

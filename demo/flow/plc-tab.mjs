@@ -1,61 +1,23 @@
 // The editor tab of one PLC: what is polled and shown, what is written, and how the connection is.
 import { tab } from './canvas.mjs'
+import { connectionId } from './connection.mjs'
 import { catchNode, functionNode, inject, setPayload, settled } from './core.mjs'
 import { groupId, text, ui } from './dashboard.mjs'
 import { connectionState, done, setPointsThatChanged, trend, whatWentWrong } from './functions.mjs'
+import { plantOf } from './plants.mjs'
 import * as widgets from './widgets.mjs'
 
-const LEVEL_COLOUR = '#1f6fb2'
-const HEAT_COLOUR = '#d9660a'
-
-/** The connection node. Writes and remote control are ticked: this plant is a simulated one. */
-export function connection(plc) {
-  return {
-    id: connectionId(plc),
-    type: 'melsec-jw-connection',
-    name: plc.title,
-    version: 1,
-    profile: plc.profile,
-    host: '127.0.0.1',
-    port: `\${${plc.portVariable}}`,
-    transport: 'tcp',
-    code: 'binary',
-    frame: plc.frame,
-    localAddress: '',
-    localPort: '',
-    network: '0',
-    station: '255',
-    moduleIo: '3FF',
-    multidrop: '0',
-    timeout: '3000',
-    monitoringTimer: '',
-    probe: 'auto',
-    inFlight: '1',
-    gap: '64',
-    xyRadix: '',
-    asciiXy: '',
-    asciiZr: '',
-    encoding: 'shift-jis',
-    wordOrder: 'low-first',
-    allowWrites: true,
-    allowControl: true,
-  }
-}
-
-const connectionId = (plc) => `${plc.id}-connection`
-
-/**
- * Every node of a PLC's tab.
- * @param tags of demoPlantTags
- */
-export function plcTab(plc, tags) {
+/** Every node of a PLC's tab. */
+export function plcTab(plc) {
+  const { process, tags } = plantOf(plc)
   const canvas = tab(plc.id, plc.title, info(plc))
   const part = {
     canvas,
+    process,
     tags,
     group: (name) => groupId(plc, name),
     uses: { connection: connectionId(plc), version: 1 },
-    filled: (file) => text(file).replaceAll('__TITLE__', plc.title).replaceAll('__FRAME__', plc.frame),
+    filled: (file) => filledIn(text(file), process.texts(plc)).replace("'__LEDS__'", JSON.stringify(process.leds)),
   }
   poll(part)
   state(part)
@@ -63,6 +25,11 @@ export function plcTab(plc, tags) {
   operate(part)
   failures(part)
   return canvas.nodes
+}
+
+/** A component with `__NAME__` replaced. */
+function filledIn(component, texts) {
+  return component.replaceAll(/__([A-Z_]+)__/g, (whole, name) => texts[name] ?? whole)
 }
 
 function info({ title, portVariable }) {
@@ -85,61 +52,16 @@ function rows(tags) {
   })
 }
 
-function poll({ canvas, tags, group, uses, filled }) {
+function poll({ canvas, process, tags, group, uses, filled }) {
   const column = 390
+  const charts = process.charts.map((chart, index) => widgets.chart(group('trend'), { order: index + 1, ...chart }))
+  const { file, ...counts } = process.counts
   const shown = [
-    widgets.gauge(group('tank'), {
-      id: 'level',
-      name: 'Level',
-      value: 'payload.level',
-      units: 'l',
-      gtype: 'gauge-tank',
-      max: 1000,
-      segments: [{ from: 0, color: LEVEL_COLOUR }],
-    }),
-    widgets.text(group('tank'), {
-      id: 'level-text',
-      label: 'Level',
-      value: "$formatNumber(payload.level, '0') & ' l'",
-    }),
-    widgets.gauge(group('heat'), {
-      id: 'temperature',
-      name: 'Temperature',
-      value: '$round(payload.temperature, 1)',
-      units: '°C',
-      gtype: 'gauge-34',
-      max: 100,
-      segments: [
-        { from: 0, color: '#5b8fb9' },
-        { from: 30, color: HEAT_COLOUR },
-        { from: 85, color: '#b3261e' },
-      ],
-    }),
-    widgets.text(group('heat'), {
-      id: 'temperature-text',
-      label: 'Set-point',
-      value: "$formatNumber(payload.temperatureSetPoint, '0.0') & ' °C'",
-    }),
-    functionNode(trend, { id: 'trend', name: 'Trend', wires: [['level-trend'], ['temperature-trend']] }),
+    ...process.gauges(group),
+    functionNode(trend, { id: 'trend', name: 'Trend', names: process.trends, wires: charts.map(({ id }) => [id]) }),
     widgets.template(group('states'), { id: 'states', name: 'States', format: filled('states.vue') }),
-    widgets.template(group('batch'), { id: 'batch', name: 'Batch', format: filled('batch.vue') }),
+    widgets.template(group('counts'), { ...counts, format: filled(file) }),
     canvas.linkOut({ id: 'values-out', name: 'values', to: ['values-to-setpoints', 'values-to-state'] }),
-  ]
-  const charts = [
-    widgets.chart(group('trend'), {
-      id: 'level-trend',
-      order: 1,
-      label: 'Level [l]',
-      ymax: 1000,
-      colour: LEVEL_COLOUR,
-    }),
-    widgets.chart(group('trend'), {
-      id: 'temperature-trend',
-      order: 2,
-      label: 'Temperature [°C]',
-      ymax: 100,
-      colour: HEAT_COLOUR,
-    }),
   ]
   canvas.frame('poll', 'Read every second, and show', { x: 20, y: 20, width: 780, rows: shown.length }, [
     inject({ id: 'every-second', column: 0, row: 4, name: 'every second', every: 1, wires: [['read']] }),
@@ -148,11 +70,11 @@ function poll({ canvas, tags, group, uses, filled }) {
       column: 190,
       row: 4,
       type: 'melsec-jw-read',
-      name: 'mixing tank',
+      name: process.name,
       ...uses,
       addressesType: 'rows',
       addresses: '',
-      items: [...rows(tags), { name: 'cpuState', address: 'SD203', type: 'WORD' }],
+      items: [...rows(tags), ...process.alsoRead],
       output: 'object',
       property: 'payload',
       quality: false,
@@ -184,7 +106,7 @@ function control({ uses, ...node }) {
   }
 }
 
-function state({ canvas, group, uses, filled }) {
+function state({ canvas, process, group, uses, filled }) {
   const known = [['connection-state']]
   canvas.frame('state', 'Connection and round trip', { x: 840, y: 20, width: 680, rows: 5 }, [
     inject({
@@ -196,6 +118,9 @@ function state({ canvas, group, uses, filled }) {
       payload: 'selfTest',
       wires: [['ask']],
     }),
+    ...process.asked.map((payload) =>
+      inject({ id: payload, column: 90, row: 1, name: payload, every: 1, payload, wires: [['ask']] }),
+    ),
     canvas.linkIn({ id: 'identify-in', column: 0, row: 1, name: 'identify', from: ['identify-out'], wires: [['ask']] }),
     control({ id: 'ask', column: 230, row: 0, name: 'self test, identify', uses, wires: known }),
     {
@@ -259,28 +184,13 @@ function remote({ canvas, group, uses, filled }) {
   ])
 }
 
-function operate({ canvas, tags, group, uses }) {
-  const tag = (name) => tags.find((candidate) => candidate.name === name)
-  const input = (name, order) => {
-    const { title, unit, min, max } = tag(name)
-    return { label: `${title} [${unit}]`, topic: name, min, max, order }
+function operate({ canvas, process, tags, group, uses }) {
+  const input = (name, title) => {
+    const tag = tags.find((candidate) => candidate.name === name)
+    const { unit, min, max } = tag
+    return { label: `${title ?? tag.title} [${unit}]`, topic: name, min, max }
   }
-  const inputs = [
-    widgets.slider(group('setpoints'), { id: 'level-setpoint', step: 10, ...input('levelSetPoint', 1) }),
-    widgets.slider(group('setpoints'), { id: 'temperature-setpoint', step: 1, ...input('temperatureSetPoint', 2) }),
-    widgets.numberInput(group('setpoints'), { id: 'mixing-time', ...input('mixingTime', 3) }),
-    widgets.dropdown(group('setpoints'), {
-      id: 'recipe',
-      order: 4,
-      label: 'Next product',
-      topic: 'recipe',
-      options: [
-        [1, 'Apple juice'],
-        [2, 'Green tea'],
-        [3, 'Oolong tea'],
-      ],
-    }),
-  ]
+  const inputs = process.inputs(group, input).map((node, index) => ({ ...node, order: index + 1 }))
   const buttons = [
     widgets.button(group('operate'), {
       id: 'start',
@@ -344,6 +254,7 @@ function operate({ canvas, tags, group, uses }) {
       column: 230,
       row: 1,
       name: 'Set-points that changed',
+      names: inputs.map(({ topic }) => topic),
       wires: inputs.map(({ id }) => [id]),
     }),
     ...[...inputs, ...buttons].map((node, row) => {
@@ -357,7 +268,7 @@ function operate({ canvas, tags, group, uses }) {
       column: 1060,
       row: 3,
       type: 'melsec-jw-write',
-      name: 'mixing tank',
+      name: process.name,
       ...uses,
       values: 'payload',
       valuesType: 'msg',

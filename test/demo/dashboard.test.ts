@@ -171,11 +171,11 @@ describe.each([
 })
 
 describe('the editor', () => {
-  test('shows the flow of both PLCs, with every node valid and connected', async () => {
+  test('shows the flow of every PLC, with every node valid and connected', async () => {
     const { page, problems, close } = await browser.openEditor(demo.editor)
     try {
       const tabs = await page.locator('#red-ui-workspace-tabs .red-ui-tab-label').allInnerTexts()
-      expect(tabs.map((tab) => tab.trim())).toEqual(['MELSEC iQ-R', 'MELSEC iQ-F FX5U', 'Look'])
+      expect(tabs.map((tab) => tab.trim())).toEqual(['MELSEC iQ-R', 'MELSEC iQ-F FX5U', 'Sharp JW300', 'Look'])
       expect(await page.locator('.red-ui-flow-node-error:not(.hide)').count()).toBe(0)
       await eventually(
         'the status of the nodes',

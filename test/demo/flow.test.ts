@@ -43,7 +43,7 @@ test('every id is there once, and every wire, link, group and scope leads to one
 test('every node that can fail because of a PLC is caught on its tab', () => {
   const caught = new Set(flow.flatMap((node) => (node.type === 'catch' ? (node.scope as string[]) : [])))
   const failing = flow.filter(({ type }) => /^melsec-jw-(read|write|control)$/.test(type)).map(({ id }) => id)
-  expect(failing.length).toBe(8)
+  expect(failing.length).toBe(12)
   expect(failing.filter((id) => !caught.has(id))).toEqual([])
 })
 

@@ -24,8 +24,8 @@ async function startPlc(port: number): Promise<PlcSimulator> {
 beforeAll(async () => {
   plc = await startPlc(0)
   port = plc.tcp?.port ?? 0
-  // The other PLC is not needed; a port on which nobody listens for long stands for it.
-  red = await startDemoNodeRed({ iqr: port, fx5: 9 })
+  // The other PLCs are not needed; a port on which nobody listens for long stands for them.
+  red = await startDemoNodeRed({ iqr: port, fx5: 9, jw: 9 })
   browser = await launchBrowser()
   opened = await browser.openPage(`${red.dashboard}iqr`)
   page = opened.page

@@ -20,6 +20,7 @@ export interface RunningDemo {
   /** Ports of the simulated PLCs. */
   readonly iqr: number
   readonly fx5: number
+  readonly jw: number
   /** All that was printed so far. */
   readonly output: () => string
   /** Sends a signal, waits for the end, and tells the exit code. */
@@ -60,6 +61,7 @@ export async function startDemo(): Promise<RunningDemo> {
     editor: found(/Editor: +(\S+)/),
     iqr: Number(found(/iQ-R: +127\.0\.0\.1:(\d+) \(TCP and UDP\)/)),
     fx5: Number(found(/FX5U: +127\.0\.0\.1:(\d+) \(TCP and UDP\)/)),
+    jw: Number(found(/JW300: +127\.0\.0\.1:(\d+) \(TCP and UDP\)/)),
     output,
     end: (signal) => {
       child.kill(signal)
@@ -76,9 +78,13 @@ export interface RunningNodeRed {
   stop(): Promise<void>
 }
 
-export async function startDemoNodeRed(ports: { readonly iqr: number; readonly fx5: number }): Promise<RunningNodeRed> {
+export async function startDemoNodeRed(ports: Readonly<Record<'iqr' | 'fx5' | 'jw', number>>): Promise<RunningNodeRed> {
   const folder = await temporaryFolder()
-  const variables = { MELSEC_JW_DEMO_IQR_PORT: String(ports.iqr), MELSEC_JW_DEMO_FX5_PORT: String(ports.fx5) }
+  const variables = {
+    MELSEC_JW_DEMO_IQR_PORT: String(ports.iqr),
+    MELSEC_JW_DEMO_FX5_PORT: String(ports.fx5),
+    MELSEC_JW_DEMO_JW_PORT: String(ports.jw),
+  }
   const options: ForkOptions = {
     cwd: root,
     env: { ...environment(), ...variables },

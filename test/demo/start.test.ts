@@ -1,12 +1,12 @@
 /** `npm start`: ports, addresses, and that nothing is left when it ends, however it ends. */
 import { afterAll, beforeAll, describe, expect, jest, test } from '@jest/globals'
-import { createMelsecClient } from '../../src/index'
+import { createJwClient, createMelsecClient } from '../../src/index'
 import { childrenOf, eventually, isListening, isRunning, type RunningDemo, startDemo } from './running'
 
 jest.setTimeout(150_000)
 
 const portOf = (url: string): number => Number(new URL(url).port)
-const portsOf = (demo: RunningDemo): number[] => [portOf(demo.editor), demo.iqr, demo.fx5]
+const portsOf = (demo: RunningDemo): number[] => [portOf(demo.editor), demo.iqr, demo.fx5, demo.jw]
 const listening = (ports: readonly number[]): Promise<boolean[]> => Promise.all(ports.map(isListening))
 
 describe('two demos started at the same time', () => {
@@ -34,11 +34,12 @@ describe('two demos started at the same time', () => {
   }
 
   test('each has ports of its own, and one says which of the usual ones were taken', () => {
-    expect(new Set(demos.flatMap(portsOf)).size).toBe(6)
+    expect(new Set(demos.flatMap(portsOf)).size).toBe(8)
     const printed = demos.map((demo) => demo.output()).join('\n')
     expect(printed).toMatch(/Port 1880 is taken: Node-RED has \d+ instead\./)
     expect(printed).toMatch(/Port 5007 is taken: the simulated MELSEC iQ-R has \d+ instead\./)
     expect(printed).toMatch(/Port 5008 is taken: the simulated MELSEC iQ-F FX5U has \d+ instead\./)
+    expect(printed).toMatch(/Port 5009 is taken: the simulated Sharp JW300 has \d+ instead\./)
   })
 
   test('nothing but the addresses is printed when all is well', () => {
@@ -76,6 +77,15 @@ describe('two demos started at the same time', () => {
     }
   })
 
+  test.each(['tcp', 'udp'] as const)('the Sharp JW answers over %s at the printed port', async (transport) => {
+    const client = createJwClient({ host: '127.0.0.1', port: first().jw, transport })
+    try {
+      expect(await client.info()).toMatchObject({ runState: 'running', writeMode: 'data' })
+    } finally {
+      await client.close()
+    }
+  })
+
   test('the nodes of each demo have reached their own PLCs', async () => {
     for (const { iqr, fx5 } of demos) {
       for (const [port, profile] of [
@@ -95,9 +105,9 @@ describe('two demos started at the same time', () => {
   test('SIGINT, which Ctrl-C sends, ends all of one demo with exit code 0 and leaves the other alone', async () => {
     expect(await first().end('SIGINT')).toBe(0)
     expect(first().output()).toContain('The demo has ended.')
-    expect(await listening(portsOf(first()))).toEqual([false, false, false])
+    expect(await listening(portsOf(first()))).toEqual([false, false, false, false])
     expect((await childrenOf(first().pid)).length).toBe(0)
-    expect(await listening(portsOf(second()))).toEqual([true, true, true])
+    expect(await listening(portsOf(second()))).toEqual([true, true, true, true])
   })
 
   test('when the simulated plant dies, Node-RED is ended too: the reason and exit code 1', async () => {
@@ -106,7 +116,7 @@ describe('two demos started at the same time', () => {
     process.kill(plant.pid, 'SIGKILL')
     expect(await second().ended()).toBe(1)
     expect(second().output()).toContain('The simulated plant has ended by itself (SIGKILL)')
-    expect(await listening(portsOf(second()))).toEqual([false, false, false])
+    expect(await listening(portsOf(second()))).toEqual([false, false, false, false])
   })
 
   test('no process of either is left', async () => {
@@ -131,7 +141,7 @@ describe('a demo', () => {
         () => children.filter(isRunning),
         (left) => left.length === 0,
       )
-      expect(await listening(portsOf(demo))).toEqual([false, false, false])
+      expect(await listening(portsOf(demo))).toEqual([false, false, false, false])
     } finally {
       await demo.cleanUp()
     }
@@ -141,7 +151,7 @@ describe('a demo', () => {
     const demo = await startDemo()
     try {
       expect(await demo.end('SIGTERM')).toBe(0)
-      expect(await listening(portsOf(demo))).toEqual([false, false, false])
+      expect(await listening(portsOf(demo))).toEqual([false, false, false, false])
     } finally {
       await demo.cleanUp()
     }
