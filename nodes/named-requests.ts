@@ -9,7 +9,7 @@ import {
   jwCommands,
   jwMessageFromJson,
 } from '../src/entry/codec'
-import type { Effect } from '../src/index'
+import { type Effect, type JwModel, RequestError } from '../src/index'
 import { type AnyPlc, type FamilyName, forFamily } from './family'
 
 interface NamedRequests {
@@ -31,20 +31,38 @@ export function requestsOf(plc: AnyPlc): NamedRequests {
       send: (name, json) => client.requestByName(name, json),
     }),
     jw: (client) => {
-      const { areas } = client.options
+      const { areas, model = 'jw300' } = client.options
       const options = areas === undefined ? {} : { areas }
       return {
         effect: jwCommandNamed,
         check: (name, json) => {
+          checkModel(name, model)
           jwMessageFromJson(jwCommandNamed(name), json, options)
         },
         send: async (name, json) => {
           const command = jwCommandNamed(name)
-          return jwAnswerToJson(command, await client.request(command, jwMessageFromJson(command, json, options)))
+          const answer: object = await client.request(command, jwMessageFromJson(command, json, options))
+          return { ...jwAnswerToJson(command, answer), ...bytesIn(answer) }
         },
       }
     },
   })
+}
+
+/** @throws RequestError for a command that only other models have */
+function checkModel(name: string, model: JwModel): void {
+  const { title, code, models = [model] } = describeJwCommand(jwCommandNamed(name))
+  if (models.includes(model)) return
+  throw new RequestError(
+    'UNSUPPORTED',
+    `${title} (${code}H) does not exist on ${model.toUpperCase()}, only on ${models.join(', ').toUpperCase()}.`,
+  )
+}
+
+/** Bytes of an answer are a Buffer in a message, as those of MELSEC are. */
+function bytesIn(answer: object): object {
+  const entries = Object.entries(answer).filter(([, value]) => value instanceof Uint8Array)
+  return Object.fromEntries(entries.map(([name, value]) => [name, Buffer.from(value)]))
 }
 
 /** What the editor knows of the commands of each family. */

@@ -6,7 +6,7 @@ import { afterAll, beforeAll, describe, expect, test } from '@jest/globals'
 import type { Page } from 'playwright-core'
 import { jwControls, melsecControls } from '../../nodes/control-commands'
 import { families } from '../../nodes/family'
-import { jwCommands } from '../../src/entry/codec'
+import { describeJwCommand, jwCommands } from '../../src/entry/codec'
 import type { JwSimulator, PlcSimulator } from '../../src/entry/simulator'
 import { jwModels, jwProbeKinds } from '../../src/index'
 import { type HeadlessBrowser, launchBrowser, type OpenedPage } from '../support/browser'
@@ -34,6 +34,7 @@ beforeAll(async () => {
   await red.deploy([
     jwConnection(plc, { header: 'relay', pda: '1', psa: '2', slot: '3', relayStation: '4', timeout: '500' }),
     { ...connectionTo(melsec), id: 'plc2' },
+    jwConnection(plc, { id: 'plc3', model: 'jw30h' }),
     readNode({ level: '09012:INT', running: '004033' }, { x: 200, y: 100 }),
     writeNode({ valuesType: 'rows', items: [row], x: 200, y: 200 }),
     controlNode({ version: 2, commandType: 'command', command: 'stop', x: 200, y: 300 }),
@@ -210,7 +211,11 @@ describe('in English', () => {
     expect(await values('#melsec-jw-items li:first-child .melsec-jw-type')).toEqual(['', ...families.jw.types])
     await close(page, 'cancel')
     await edit(page, 'request')
-    expect((await values('#node-input-command')).sort()).toEqual(Object.keys(jwCommands).sort())
+    const ofJw300 = Object.values(jwCommands)
+      .map((command) => describeJwCommand(command))
+      .filter(({ models }) => models?.includes('jw300') !== false)
+    expect((await values('#node-input-command')).sort()).toEqual(ofJw300.map(({ name }) => name).sort())
+    expect(ofJw300.length).toBe(41)
     await close(page, 'cancel')
   })
 
@@ -224,6 +229,10 @@ describe('in English', () => {
     await page.locator('#node-input-connection').selectOption('plc2')
     await page.locator('#node-input-command option[value=readWords]').waitFor({ state: 'attached' })
     expect(await page.locator('#node-input-command option[value=readDataMemory]').count()).toBe(0)
+    await page.locator('#node-input-connection').selectOption('plc3')
+    await page.locator('#node-input-command option[value=readDataMemory]').waitFor({ state: 'attached' })
+    // A JW30H has no lists.
+    expect(await page.locator('#node-input-command option[value=monitorRegisters]').count()).toBe(0)
     await close(page, 'cancel')
     await edit(page, 'control')
     expect(await page.locator('.melsec-jw-clear').isVisible()).toBe(false)

@@ -207,7 +207,7 @@ describe('requests', () => {
     plc.write('09000:BYTE', 1)
     plc.write('09001:BYTE', 0xab)
     await red.deploy(asked('readDataMemory', { head: '09000', length: 2 }))
-    expect((await send('request', '')).payload).toMatchObject({ data: '01ab' })
+    expect((await send('request', '')).payload).toEqual({ data: Buffer.from([1, 0xab]) })
   })
 
   test.each([
@@ -277,6 +277,11 @@ describe('the editor asks', () => {
     expect(await check('readDataMemory', '{"head":"09000","length":4}')).toEqual({ ok: true })
     expect(await check('readDataMemory', '{"head":"09000","length":5000}')).toMatchObject({ ok: false })
     expect(await check('readWords', '{}')).toMatchObject({ ok: false })
+    const older = { settings: { family: 'jw', model: 'jw30h' }, command: 'monitorRegisters', message: '{"items":[]}' }
+    expect(await post('melsec-jw/request/check', older)).toEqual({
+      ok: false,
+      message: 'Monitor registers (27H) does not exist on JW30H, only on JW300.',
+    })
   })
 
   test('for a test: what the PLC says of itself and how fast it answers', async () => {
