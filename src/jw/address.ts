@@ -1,4 +1,3 @@
-import type { Reader, ValueCodec, Writer } from '../codec/codec'
 import { RequestError } from '../errors'
 
 /**
@@ -21,7 +20,6 @@ export interface JwExtendedAddress extends JwAddress {
   readonly extended: true
 }
 
-const EXTENDED = 0xff
 /** Last file number of the basic form. */
 export const LAST_FILE = 0x80
 /** Extended file of the file registers of a JW300. */
@@ -30,61 +28,8 @@ export const FILE_REGISTERS = 1
 export const PAGE = 0x10000
 const LAST_EXTENDED = [PAGE - 1, LAST_FILE * PAGE - 1]
 
-/** Basic: SEG ADRL ADRH. Extended: FF SEG ADRLL ADRLH ADRHL ADRHH. The first byte tells which. */
-export const jwAddress: ValueCodec<JwAddress> = {
-  name: 'address',
-  takes: 'a byte such as "09012" or "F1:00001234"',
-  example: { file: 0, address: 0o4000 },
-  write(writer, value) {
-    check(value)
-    if (value.extended === true) {
-      writer.uint(EXTENDED, 1)
-      writeExtended(writer, value)
-      return
-    }
-    writer.uint(value.file, 1)
-    writer.uint(value.address, 2)
-  },
-  read(reader) {
-    const first = reader.uint(1)
-    if (first === EXTENDED) return readExtended(reader)
-    return checked(reader, { file: first, address: reader.uint(2) })
-  },
-  size: (ascii, _form, value) => (value?.extended === true ? 6 : 3) * (ascii ? 2 : 1),
-}
-
-/** The extended form where nothing else may stand, without its marker FF: SEG ADRLL ADRLH ADRHL ADRHH. */
-export const jwExtendedAddress: ValueCodec<JwExtendedAddress> = {
-  name: 'extendedAddress',
-  takes: 'a byte such as "09012" or "F1:00001234"',
-  example: { file: 0, address: 0o4000, extended: true },
-  write(writer, value) {
-    if (value.extended !== true) {
-      throw new RequestError('BAD_MESSAGE', 'only the extended form fits here: extended must be true')
-    }
-    check(value)
-    writeExtended(writer, value)
-  },
-  read: readExtended,
-  size: (ascii) => (ascii ? 10 : 5),
-}
-
-function writeExtended(writer: Writer, { file, address }: JwAddress): void {
-  writer.uint(file, 1)
-  writer.uint(address, 4)
-}
-
-function readExtended(reader: Reader): JwExtendedAddress {
-  return checked(reader, { file: reader.uint(1), address: reader.uint(4), extended: true })
-}
-
-function checked<A extends JwAddress>(reader: Reader, address: A): A {
-  const last = lastAddress(address)
-  if (last === undefined || address.address > last) reader.fail('BAD_FIELD', 'an address that does not exist')
-  return address
-}
-
-function check(value: JwAddress): void {
+/** @throws RequestError for an address that does not exist */
+export function checkJwAddress(value: JwAddress): void {
   if (value.extended !== undefined && value.extended !== true) {
     throw new RequestError('BAD_MESSAGE', `extended is true or left out, not ${String(value.extended)}`)
   }

@@ -2,7 +2,7 @@
 import fc from 'fast-check'
 import type { Context, Message, Shape } from '../../src/codec/codec'
 import { isVisible, type VisibleField } from '../../src/codec/field'
-import { jwAddress, jwExtendedAddress } from '../../src/jw/address'
+import { jwAddress, jwExtendedAddress } from '../../src/jw/address-codec'
 import { aCompatibleDevice } from '../../src/melsec/a-compatible/device'
 import { deviceAddress } from '../../src/melsec/device/codec'
 import { setReset } from '../../src/melsec/device/set-reset'

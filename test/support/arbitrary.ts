@@ -2,7 +2,7 @@
 import fc from 'fast-check'
 import type { Context, Field, Message, Shape } from '../../src/codec/codec'
 import { boundsOf, isVisible, type VisibleField } from '../../src/codec/field'
-import { jwAddress, jwExtendedAddress } from '../../src/jw/address'
+import { jwAddress, jwExtendedAddress } from '../../src/jw/address-codec'
 import { aCompatibleDevice, aCompatibleDevices } from '../../src/melsec/a-compatible/device'
 import { deviceAddress, FORM_EXTENDED, FORM_XY_OCTAL, formProblem } from '../../src/melsec/device/codec'
 import { devices } from '../../src/melsec/device/device'

@@ -1,6 +1,6 @@
 // Relays, registers, timers and counters. DATA of a relay is 00H (off, reset) or 01H (on, set).
 import { field } from '../../codec/codec'
-import { jwAddress, jwExtendedAddress } from '../address'
+import { jwAddress, jwExtendedAddress } from '../address-codec'
 import { type JwDeclaration, section } from './command'
 
 const { bytes, countOf, each, echo, fixedInForm, list, repeat, u16, u8, value, words } = field

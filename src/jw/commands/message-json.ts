@@ -17,7 +17,8 @@ import {
   writerOf,
 } from '../../codec/codec'
 import { RequestError } from '../../errors'
-import { FILE_REGISTERS, type JwAddress, jwAddress, jwExtendedAddress, PAGE } from '../address'
+import { FILE_REGISTERS, type JwAddress, PAGE } from '../address'
+import { jwAddress, jwExtendedAddress } from '../address-codec'
 import { jwKind } from '../operand/kind'
 import type { JwOperandOptions } from '../operand/map'
 import { formatJwOperand } from '../operand/notation'
