@@ -18,6 +18,7 @@ export {
   parseJwItem,
   tryParseJwItem,
 } from '../client/jw/item'
+export { type JwOffset, moveJwItem } from '../client/jw/move'
 export { RequestError, type RequestErrorCode } from '../errors'
 export { assumedJwAreas, type JwArea, type JwConfidence, jwAreas } from '../jw/operand/area'
 export { type JwKindName, type JwOperandKind, type JwUnit, jwKinds } from '../jw/operand/kind'
