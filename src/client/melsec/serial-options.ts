@@ -39,7 +39,10 @@ const ECHO = ['auto', 'always', 'never'] as const
 
 /** What the manual leaves open (FX5 communication manual 42): the defaults are what its examples show. */
 export type SerialFrameDetails = Partial<
-  Pick<SerialFrameOptions, 'etxInSum' | 'sumOfAck' | 'errorDigits' | 'errorInformation' | 'initialise'>
+  Pick<
+    SerialFrameOptions,
+    'etxInSum' | 'sumOfAck' | 'errorDigits' | 'errorInformation' | 'initialise' | 'answeredToAll'
+  >
 >
 
 /** How the frames of a serial line look, as the parameters of the PLC have it. */
@@ -82,6 +85,7 @@ const DETAIL_NAMES = {
   errorDigits: true,
   errorInformation: true,
   initialise: true,
+  answeredToAll: true,
 } as const satisfies OptionNames<SerialFrameDetails>
 
 const LONGEST = 60_000
@@ -126,7 +130,7 @@ function frameOf(options: SerialLineFormat, usual: SerialFrameName): SerialLineS
   checkFormat(frame, format)
   const details = options.serialFrame ?? {}
   checkNames('serialFrame.', details, DETAIL_NAMES)
-  for (const name of ['etxInSum', 'sumOfAck', 'errorInformation'] as const) {
+  for (const name of ['etxInSum', 'sumOfAck', 'errorInformation', 'answeredToAll'] as const) {
     oneOf(`serialFrame.${name}`, details[name], [undefined, true, false])
   }
   oneOf('serialFrame.errorDigits', details.errorDigits, [undefined, 2, 4])

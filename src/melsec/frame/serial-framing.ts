@@ -5,6 +5,7 @@ import { type BodyLayout, plainBody, serialBody } from './body'
 import { asciiFraming, checkCharacters } from './serial-ascii'
 import { format5 } from './serial-binary'
 import {
+  allStations,
   type ControlCode,
   checkFormat,
   controlCodes,
@@ -32,6 +33,8 @@ export interface SerialFrameOptions {
   readonly errorInformation?: boolean
   /** Formats 1 and 4: what brings the PLC to a known state. Default EOT. */
   readonly initialise?: 'EOT' | 'CL'
+  /** 1C: whether a station answers the global signal to all of them (44.6 does not say it). Default false. */
+  readonly answeredToAll?: boolean
 }
 
 /** Format 5 has no control code for it. The manual names a command 1615 (42.3), which its list of commands lacks. */
@@ -101,6 +104,8 @@ function recoveryIn(format: 1 | 4, code: ControlCode): Buffer {
 
 function mismatch(frame: SerialFrameName, asked: SerialHead, answered: Head): string | undefined {
   for (const field of factsOfSerial(frame).route) {
+    // What is for all stations is answered by one of them, if at all.
+    if (field === 'station' && asked.station === allStations.station) continue
     const wanted = asked[field] ?? serialRouteFields[field].own
     if (wanted !== answered[field]) return `${field} is ${answered[field]}, asked ${wanted}`
   }

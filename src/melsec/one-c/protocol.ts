@@ -25,6 +25,8 @@ export interface OneCOptions<H extends OneCHead> {
   readonly asciiXy?: 'octal' | 'hexadecimal' | undefined
   /** ms before the PLC answers at the earliest: 0 to 150 in steps of 10. Default 0. */
   readonly messageWait?: number
+  /** Whether what is for all stations is answered. Default false. */
+  readonly answeredToAll?: boolean | undefined
 }
 
 const ALL_STATIONS = 0xff
@@ -34,7 +36,7 @@ const ALL_STATIONS = 0xff
  * @example oneCProtocol({ framing, head }).exchange(oneCCommands.WR, { head: { device: 'D', number: 0 }, points: 3 })
  */
 export function oneCProtocol<H extends OneCHead>(options: OneCOptions<H>): HeadProtocol<H> {
-  const { framing, head, windows = fx5Windows, asciiXy, messageWait = 0 } = options
+  const { framing, head, windows = fx5Windows, asciiXy, messageWait = 0, answeredToAll = false } = options
   return new HeadProtocol<H>({
     framing,
     commands: oneCCommands,
@@ -42,7 +44,7 @@ export function oneCProtocol<H extends OneCHead>(options: OneCOptions<H>): HeadP
     form: asciiXy === 'octal' ? FORM_XY_OCTAL : 0,
     headOf: () => head,
     // 44.6 does not say whether the stations answer what is for all of them: they would speak at once.
-    isAnswered: () => head.station !== ALL_STATIONS,
+    isAnswered: () => answeredToAll || head.station !== ALL_STATIONS,
     front: oneCFront(messageWait),
     prepare(command, message) {
       const { name } = command

@@ -74,7 +74,8 @@ export function clientProtocolOver1c(options: ProtocolOptions): ClientProtocol {
   const asciiXy = profile.asciiXy === 'setting' ? options.asciiXy : undefined
   const { head, messageWait, turnRound = 0, ...serial } = serialOptionsOf(options)
   const framing = serialFraming({ ...serial, frame: '1C' })
-  return protocolOver1c({ profile, asciiXy, head, messageWait, turnRound, framing })
+  const { answeredToAll } = serial
+  return protocolOver1c({ profile, asciiXy, head, messageWait, turnRound, answeredToAll, framing })
 }
 
 function saidIn1c(windows: readonly DeviceWindow[], name: SaidName, given: Message): Said {
