@@ -144,7 +144,6 @@ export type {
 export type { PlanDescription, RequestDescription } from './client/plan/request'
 export type { WriteCallOptions, WriteOptions } from './client/plan/write'
 export { type ExplainedItem, tagReaderOf } from './client/tags/tag-reader'
-export type { WatchDeadband } from './client/watch/deadband'
 export type { Watch, WatchedName, WatchGap, WatchOptions, WatchStatistics, WatchUpdate } from './client/watch/watch'
 export type { WatchedValue } from './client/watch/watched-value'
 export type { DataCode, Declaration, Effect, MessageInput, MessageOf, Shape } from './codec/codec'

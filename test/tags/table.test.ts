@@ -72,6 +72,12 @@ describe('a row is', () => {
       tag({ deadband: { kind: 'percent', value: 1 } }),
       'A deadband in percent needs a range: a scaling, or min and max.',
     ],
+    [
+      tag({ deadband: { kind: 'percent', value: 1, of: [0, 5] }, min: 0, max: 1 }),
+      'The range of percent of a tag is that of its scaling, else from min to max: leave of out.',
+    ],
+    [tag({ deadband: { kind: 'absolute', value: 1, of: [0, 5] } }), /A range belongs to a deadband in percent/],
+    [tag({ deadband: { kind: 'absolute', value: 1, values: 2 } }), /There is no 'values' in it/],
     [tag({ deadband: { kind: 'percent', value: 101 }, min: 0, max: 1 }), 'A deadband has at most 100 percent.'],
     [tag({ format: { wordOrder: 'big' } }), /wordOrder is low-first or high-first/],
     [tag({ format: 5 }), /a value format is an object/],

@@ -1,7 +1,8 @@
 // Options of a watch as programs without types pass them.
 import { badOption, checkNames, isPlainObject, type OptionNames, oneOf, wholeNumber } from '../../basics/option-checks'
 import { shown } from '../../basics/show'
-import { reachOf, type WatchDeadband } from './deadband'
+import type { Deadband } from '../../tags/table/tag'
+import { reachOf } from './deadband'
 import type { WatchOptions } from './watch'
 
 const NAMES: OptionNames<WatchOptions> = {
@@ -67,23 +68,23 @@ export function settleWatch(given: object, names: readonly (string | number)[]):
   }
 }
 
-/** One for all, or by name. A name may be `absolute`: what stands there is no number then. */
+/** One for all, or by name. A name may be `kind`: what stands there is no text then. */
 function reachesOf(given: unknown, names: readonly (string | number)[]): WatchSettings['reachOf'] {
   if (given === undefined) return () => 0
   if (!isPlainObject(given))
-    badOption('deadband', `deadband is ${shown(given)}; it must be an object, e.g. { absolute: 0.5 }.`)
+    badOption('deadband', `deadband is ${shown(given)}; it must be an object, e.g. { kind: 'absolute', value: 0.5 }.`)
   if (isOne(given)) {
     const reach = reachOf('deadband', given)
     return () => reach
   }
   const byName = new Map<string, number>()
-  for (const [name, deadband] of Object.entries(given as Readonly<Record<string, WatchDeadband | undefined>>)) {
+  for (const [name, deadband] of Object.entries(given as Readonly<Record<string, Deadband | undefined>>)) {
     if (!names.some((known) => String(known) === name)) badOption(`deadband.${name}`, `No item is named ${name}.`)
     if (deadband !== undefined) byName.set(name, reachOf(`deadband.${name}`, deadband))
   }
   return (name) => byName.get(String(name)) ?? 0
 }
 
-function isOne(given: object): given is WatchDeadband {
-  return ['absolute', 'percent'].some((name) => name in given && !isPlainObject(given[name as never]))
+function isOne(given: object): given is Deadband {
+  return ['kind', 'value'].some((name) => name in given && !isPlainObject(given[name as never]))
 }

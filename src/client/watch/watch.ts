@@ -1,5 +1,5 @@
 // Watching, as users see it.
-import type { WatchDeadband } from './deadband'
+import type { Deadband } from '../../tags/table/tag'
 import type { WatchedValue } from './watched-value'
 
 /** How a watch calls its items: by their names, or of a list by their places. */
@@ -15,7 +15,7 @@ export interface WatchOptions<V = Readonly<Record<string, WatchedValue>>> {
    */
   readonly onChange?: (update: WatchUpdate<V>) => unknown
   /** How far a number may move before it counts as changed: of all items, or by their names. Default: any difference. */
-  readonly deadband?: WatchDeadband | { readonly [N in WatchedName<V>]?: WatchDeadband }
+  readonly deadband?: Deadband | { readonly [N in WatchedName<V>]?: Deadband }
   /** `changes`: an update when something has changed (default). `scans`: one for each scan. */
   readonly tell?: 'changes' | 'scans'
   /** ms after which an update comes also when nothing has changed, so that silence means that something is wrong. */

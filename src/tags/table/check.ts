@@ -6,16 +6,8 @@ import { shortened } from '../../basics/typed-text'
 import { RequestError } from '../../errors'
 import { type ByteType, parseByteType } from '../../value/byte-type'
 import { checkFormat } from '../../value/format'
-import {
-  deadbandKinds,
-  itemOfTag,
-  scalingKinds,
-  type Tag,
-  type TagField,
-  type TagItem,
-  tagAccesses,
-  tagFields,
-} from './tag'
+import { deadbandProblem } from './deadband'
+import { itemOfTag, scalingKinds, type Tag, type TagField, type TagItem, tagAccesses, tagFields } from './tag'
 import { isNumberType } from './type'
 
 /** What a family of PLCs knows of the item of a tag. */
@@ -222,13 +214,11 @@ function checkScaling(scaling: unknown, wrong: Tell): void {
 }
 
 function checkDeadband(deadband: unknown, wrong: Tell): void {
-  const kinds: readonly unknown[] = deadbandKinds
-  if (!isPlainObject(deadband) || !kinds.includes(deadband.kind) || !isNumber(deadband.value) || deadband.value < 0) {
-    wrong('deadband', `A deadband is { kind: ${deadbandKinds.join(' or ')}, value: a number from 0 }.`)
-    return
+  const problem = deadbandProblem(deadband)
+  if (problem !== undefined) wrong('deadband', problem)
+  else if (isPlainObject(deadband) && deadband.of !== undefined) {
+    wrong('deadband', 'The range of percent of a tag is that of its scaling, else from min to max: leave of out.')
   }
-  if (deadband.kind === 'percent' && deadband.value > 100) wrong('deadband', 'A deadband has at most 100 percent.')
-  checkKeys(deadband, ['kind', 'value'], (message) => wrong('deadband', message))
 }
 
 function checkKeys(given: object, names: readonly string[], tell: (message: string) => void): void {

@@ -13,12 +13,17 @@ export interface Scaling {
   readonly clamp?: boolean
 }
 
-/** How far a value must have moved since it was told last to be told again. */
+/**
+ * How far a number must be from the one that was told last to be told again; of an array each of its numbers. What is no number is told with any
+ * difference.
+ */
 export interface Deadband {
-  /** `absolute`: in the unit of the tag. `percent`: of its range, see `thresholdOf`. */
+  /** `absolute`: in the unit of the value. `percent`: of a range. */
   readonly kind: 'absolute' | 'percent'
-  /** From 0; a change must be greater than it. */
+  /** From 0, percent to 100; a change must be greater than it. */
   readonly value: number
+  /** The range of percent, the lower end first. Of a tag left out: it is that of its scaling, else from `min` to `max`. */
+  readonly of?: readonly [low: number, high: number]
 }
 
 /** What may be done with a tag. */

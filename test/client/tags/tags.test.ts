@@ -233,7 +233,7 @@ describe.each([
     [{ scanClass: 'slow' }, /Nothing says how fast 'slow' is/],
     [{ scanClass: 'slow', every: 100 }, /No tag has the scan class 'slow'/],
     [{}, /every is missing/],
-    [{ every: 5, deadband: { absolute: 1 } }, /A tag has its deadband in the table/],
+    [{ every: 5, deadband: { kind: 'absolute', value: 1 } }, /A tag has its deadband in the table/],
     [{ every: 5, evry: 5 }, /evry/],
   ])('watching with %j is refused', (options, message) =>
     on(async (bench) => {

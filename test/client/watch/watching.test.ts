@@ -131,7 +131,7 @@ describe('what is told', () => {
     const bench = new WatchBench()
     const { updates } = bench.watch(
       { a: 'D1', b: 'D2', c: 'D3' },
-      { every: 100, deadband: { a: { absolute: 2 }, b: { percent: 10, of: [0, 50] } } },
+      { every: 100, deadband: { a: { kind: 'absolute', value: 2 }, b: { kind: 'percent', value: 10, of: [0, 50] } } },
     )
     for (let i = 0; i < 10; i++) {
       for (const item of ['D1', 'D2']) bench.values.set(item, i)
@@ -151,7 +151,7 @@ describe('what is told', () => {
         const bench = new WatchBench()
         const watch = bench.loop(
           { a: 'D1' },
-          { every: 100, deadband: { absolute: reach }, tell: 'scans', demoteAfter: 1000 },
+          { every: 100, deadband: { kind: 'absolute', value: reach }, tell: 'scans', demoteAfter: 1000 },
         )
         let told: unknown
         for (const { value, failed, taken } of scans) {
@@ -203,7 +203,7 @@ describe('what is told', () => {
 
   test('to a loop that is slow is the latest, with how many were merged: nothing piles up', async () => {
     const bench = new WatchBench()
-    const watch = bench.loop({ a: 'D1', b: 'D2' }, { every: 100, deadband: { absolute: 2 } })
+    const watch = bench.loop({ a: 'D1', b: 'D2' }, { every: 100, deadband: { kind: 'absolute', value: 2 } })
     await bench.pass(0)
     expect((await watch.next()).value?.changed).toEqual(['a', 'b'])
     for (const value of [10, 20, 30, 29]) {
@@ -482,12 +482,12 @@ describe('what is wrong with it', () => {
     [{ every: 100, signal: {} }, 'signal'],
     [{ every: 100, evry: 1 }, 'evry'],
     [{ every: 100, deadband: 5 }, 'deadband'],
-    [{ every: 100, deadband: { absolute: -1 } }, 'deadband.absolute'],
-    [{ every: 100, deadband: { absolute: '1' } }, 'deadband.absolute'],
-    [{ every: 100, deadband: { percent: 5 } }, 'deadband.of'],
-    [{ every: 100, deadband: { percent: 5, of: [5, 5] } }, 'deadband.of'],
-    [{ every: 100, deadband: { percent: 101, of: [0, 5] } }, 'deadband.percent'],
-    [{ every: 100, deadband: { b: { absolute: 1 } } }, 'deadband.b'],
+    [{ every: 100, deadband: { kind: 'absolute', value: -1 } }, 'deadband'],
+    [{ every: 100, deadband: { kind: 'absolute', value: '1' } }, 'deadband'],
+    [{ every: 100, deadband: { kind: 'percent', value: 5 } }, 'deadband.of'],
+    [{ every: 100, deadband: { kind: 'percent', value: 5, of: [5, 5] } }, 'deadband'],
+    [{ every: 100, deadband: { kind: 'percent', value: 101, of: [0, 5] } }, 'deadband'],
+    [{ every: 100, deadband: { b: { kind: 'absolute', value: 1 } } }, 'deadband.b'],
     [{ every: 100, deadband: { a: 1 } }, 'deadband.a'],
     [{ every: 100, demoteAfter: 0 }, 'demoteAfter'],
   ])('%j is refused for %s', (options, field) => {
