@@ -16,6 +16,7 @@ export const bottlingLine = {
     PROTOCOL: 'Computer link',
     HOW: 'TCP',
     START: 'release',
+    START_BUTTON: 'RELEASE',
     START_TEXT: `Release the stop of the ${title}? Its program starts, and machines may move.`,
     STOP_TEXT: `Stop the ${title}? Its program ends, and all outputs go off.`,
   }),

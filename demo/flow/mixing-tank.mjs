@@ -16,6 +16,7 @@ export const mixingTank = {
     PROTOCOL: 'SLMP',
     HOW: `${frame} binary, TCP`,
     START: 'run',
+    START_BUTTON: 'RUN',
     START_TEXT: `Set the CPU of the ${title} to RUN? Its program starts, and machines may move.`,
     STOP_TEXT: `Set the CPU of the ${title} to STOP? Its program ends, and all outputs go off.`,
   }),

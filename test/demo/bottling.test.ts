@@ -168,7 +168,7 @@ test('stops the PLC and releases it, each after a question', async () => {
   )
   await eventually('STOP on the page', head, (text) => text.includes('STOP'))
   await page.getByText('Remote STOP is done.').waitFor()
-  await page.locator('.plc-cpu-run').click()
+  await page.getByRole('button', { name: 'RELEASE' }).click()
   await page.locator('.plc-dialog-confirm').click()
   await eventually(
     'RUN in the PLC',
