@@ -5,7 +5,7 @@ import { ClosedError, type PlcError, RequestError, type WriteResult } from '../.
 import { checkTags, type ReadTagItem } from '../../tags/table/check'
 import { thresholdOf } from '../../tags/table/deadband'
 import type { TagTable } from '../../tags/table/table'
-import { itemOfTag, type Tag } from '../../tags/table/tag'
+import { itemOfTag, type Tag, type TagItem } from '../../tags/table/tag'
 import { rawValueOf } from '../../tags/table/write'
 import type { CallOptions } from '../connection/call'
 import { nameResults } from '../item/about'
@@ -40,10 +40,12 @@ export class ItemTags {
   readonly table: TagTable
   readonly #parts: TagParts
   readonly #scanClasses: Readonly<Record<string, number>>
+  /** One item for each tag: plans are found again, and what two watches share is read once. */
+  readonly #items: ReadonlyMap<string, TagItem | string>
 
   /** @throws RequestError BAD_OPTION with one message for each row that is wrong for this PLC */
   constructor(parts: TagParts, table: TagTable, options: TagsOptions = {}) {
-    if (!isPlainObject(table) || !Array.isArray(table.tags)) {
+    if (!isPlainObject(table) || !Array.isArray(table.tags) || typeof table.tag !== 'function') {
       const message = `tags() takes a table that defineTags() or tagTable() has made, not ${show(table)}.`
       throw new RequestError('BAD_OPTION', message, 'table')
     }
@@ -51,7 +53,13 @@ export class ItemTags {
     checkTags(table.tags, { readItem: parts.readItem })
     this.table = table
     this.#parts = parts
-    this.#scanClasses = { ...options.scanClasses }
+    this.#items = new Map(table.tags.map((tag) => [tag.name, shortest(itemOfTag(tag))]))
+    const { scanClasses = {} } = options
+    if (!isPlainObject(scanClasses)) {
+      const message = `scanClasses are ms by scan class, e.g. { fast: 100 }, not ${show(scanClasses)}.`
+      throw new RequestError('BAD_OPTION', message, 'scanClasses')
+    }
+    this.#scanClasses = { ...scanClasses }
   }
 
   async read(names?: string | Names, options?: CallOptions): Promise<unknown> {
@@ -67,7 +75,7 @@ export class ItemTags {
 
   async #results(names: Names, options: CallOptions | undefined): Promise<ReadResult[]> {
     const tags = names.map((name) => this.table.tag(name))
-    const results = await this.#parts.source.prepare(tags.map(itemOfTag)).run(options)
+    const results = await this.#parts.source.prepare(tags.map((tag) => this.#item(tag))).run(options)
     return nameResults(results, names).map((result, at) => {
       const tag = tags[at] as Tag
       return { ...engineeringResult(tag, result), item: tag.name }
@@ -95,7 +103,9 @@ export class ItemTags {
       throw new RequestError('BAD_OPTION', 'Of many tags the options stand in the second place.', 'options')
     }
     const names = inOrder(target)
-    const options = { allOrNothing: true, ...(second as WriteCallOptions | undefined) }
+    // What is no object is refused by the client, as in any call.
+    const given = (second ?? {}) as WriteCallOptions
+    const options = isPlainObject(given) ? { allOrNothing: true, ...given } : given
     checkAllWritten(await this.#written(names, valuesOf(target, names), options))
   }
 
@@ -135,14 +145,17 @@ export class ItemTags {
   /** @throws RequestError why it is not written */
   #entry(name: string, value: WriteValue): WriteEntry {
     const tag = this.table.tag(name)
-    const item = itemOfTag(tag)
-    const { type, count } = this.#parts.readItem(item)
-    return { item, value: rawValueOf(tag, type, count, asPlainValue(value)).raw }
+    const { type, count } = this.#parts.readItem(itemOfTag(tag))
+    return { item: this.#item(tag), value: rawValueOf(tag, type, count, asPlainValue(value)).raw }
   }
 
   watch(first: Names | WatchCall, second?: WatchCall): Watch<Values> {
     const isNamed = Array.isArray(first)
-    const { scanClass, ...options } = (isNamed ? second : first) as WatchCall
+    const given: unknown = isNamed ? second : first
+    if (!isPlainObject(given)) {
+      throw new RequestError('BAD_OPTION', `Options of a watch are an object, e.g. { every: 100 }, not ${show(given)}.`)
+    }
+    const { scanClass, ...options } = given as WatchCall
     if (isNamed && scanClass !== undefined) {
       throw new RequestError('BAD_OPTION', 'Give the names of tags or their scan class, not both.', 'scanClass')
     }
@@ -151,11 +164,15 @@ export class ItemTags {
     }
     const every = options.every ?? this.#rateOf(scanClass)
     const tags = isNamed ? this.#chosen(first).map((name) => this.table.tag(name)) : this.#ofClass(scanClass)
-    const items: Items = Object.fromEntries(tags.map((tag) => [tag.name, itemOfTag(tag)]))
+    const items: Items = Object.fromEntries(tags.map((tag) => [tag.name, this.#item(tag)]))
     return this.#parts.watching.open(items, { ...options, ...(every === undefined ? {} : { every }) }, (name) => {
       const tag = this.table.tag(String(name))
       return { reach: thresholdOf(tag), seen: (result) => engineeringResult(tag, result) }
     }) as Watch<Values>
+  }
+
+  #item(tag: Tag): TagItem | string {
+    return this.#items.get(tag.name) ?? itemOfTag(tag)
   }
 
   #rateOf(scanClass: string | undefined): number | undefined {
@@ -183,6 +200,11 @@ function inOrder(values: Readonly<Record<string, WriteValue>>): Names {
   if (moved === undefined || names.length < 2) return names
   const message = `In an object ${moved} comes first wherever it was written down, so that the order is lost: write it alone.`
   throw new RequestError('BAD_OPTION', message, moved)
+}
+
+/** An address alone is a text. */
+function shortest(item: TagItem): TagItem | string {
+  return Object.keys(item).length === 1 ? item.address : item
 }
 
 function valuesOf(values: Readonly<Record<string, WriteValue>>, names: Names): readonly WriteValue[] {

@@ -242,6 +242,18 @@ describe.each([
     }),
   )
 
+  test('what is no option is refused, and nothing is written', () =>
+    on(async (bench) => {
+      const tags = bench.plc.tags(plant(bench))
+      expect(() => tags.watch(['pump'], undefined as never)).toThrow(/Options of a watch are an object/)
+      expect(() => bench.plc.tags(plant(bench), { scanClasses: 5 as never })).toThrow(/scanClasses are ms/)
+      for (const options of [5, { timeuot: 5 }, { allOrNothing: 'no' }]) {
+        const failure = await failureOf(tags.write({ pump: true }, options as never))
+        expect(failure).toMatchObject({ outcome: 'notSent' })
+      }
+      expect(bench.inPlc(bench.at('pump'))).toBe(false)
+    }))
+
   test('a name that the table does not have is refused, with the one that may be meant', () =>
     on(async (bench) => {
       const tags = bench.plc.tags<TagDefinitions>(plant(bench))
@@ -261,6 +273,7 @@ describe.each([
 test.each([
   [{ level: 'D100' }, /takes a table that defineTags\(\) or tagTable\(\) has made/],
   [undefined, /takes a table/],
+  [{ tags: [] }, /takes a table/],
 ])('%j is no table', async (given, message) => {
   const plc = createMelsecClient({ host: '127.0.0.1', port: 1, profile: 'iq-r' })
   expect(() => plc.tags(given as never)).toThrow(message)
